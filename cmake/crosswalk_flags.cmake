@@ -1,0 +1,29 @@
+# cw_flags: warnings, architecture, sanitizers; every target of ours links it.
+add_library(cw_flags INTERFACE)
+target_include_directories(cw_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(cw_flags INTERFACE
+  -march=native -fno-math-errno -fno-trapping-math -ffp-contract=fast
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wold-style-cast
+  -Woverloaded-virtual -Wnon-virtual-dtor -Wdouble-promotion -Wduplicated-cond -Wlogical-op -Werror)
+target_link_libraries(cw_flags INTERFACE Eigen3::Eigen fmt::fmt OpenMP::OpenMP_CXX)
+
+option(CROSSWALK_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+if(CROSSWALK_SANITIZE)
+  target_compile_options(cw_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+                         -fno-omit-frame-pointer)
+  target_link_options(cw_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# cw_library(NAME cw_xyz SOURCES ... [LINK ...]): a module folder as a static library.
+function(cw_library)
+  cmake_parse_arguments(ARG "" "NAME" "SOURCES;LINK" ${ARGN})
+  add_library(${ARG_NAME} STATIC ${ARG_SOURCES})
+  target_link_libraries(${ARG_NAME} PUBLIC cw_flags ${ARG_LINK})
+endfunction()
+
+# cw_program(NAME xyz SOURCES main.cpp LINK ...): an executable in <build>/bin.
+function(cw_program)
+  cmake_parse_arguments(ARG "" "NAME" "SOURCES;LINK" ${ARGN})
+  add_executable(${ARG_NAME} ${ARG_SOURCES})
+  target_link_libraries(${ARG_NAME} PRIVATE cw_flags ${ARG_LINK})
+endfunction()

@@ -1,0 +1,40 @@
+// Shape measures of hexahedra and their summary per part.
+//
+// scaled Jacobian: least over the corners of det of the three unit edge vectors, 1 for a brick, <=
+// 0 inverted. aspect: longest over shortest edge. warpage: largest angle between the two triangles
+// of a face, over both diagonals. characteristic length: volume over largest face area, the length
+// in the stable step of a one-point brick.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "fe_node/generate/mesh_draft.h"
+
+namespace crosswalk::fe::generate {
+
+using HexCorners = std::array<Vec3, 8>;
+
+HexCorners corners_of(const MeshDraft& draft, const Hex& hex);
+/// Exact volume of the trilinear hexahedron, m3.
+double volume(const HexCorners& x);
+double scaled_jacobian(const HexCorners& x);
+double aspect_ratio(const HexCorners& x);
+double warpage(const HexCorners& x);                ///< rad
+double characteristic_length(const HexCorners& x);  ///< m
+
+struct PartQuality {
+  int part = 0;
+  int elements = 0;
+  double volume = 0;  ///< m3
+  double min_scaled_jacobian = 1;
+  double max_aspect = 1;
+  double max_warpage = 0;                ///< rad
+  double min_characteristic_length = 1;  ///< m
+};
+
+/// Of all parts with hexahedra, in the order of their first element.
+std::vector<PartQuality> hex_quality(const MeshDraft& draft);
+
+}  // namespace crosswalk::fe::generate

@@ -4,7 +4,8 @@ target_include_directories(cw_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(cw_flags INTERFACE
   -march=native -fno-math-errno -fno-trapping-math -ffp-contract=fast
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wold-style-cast
-  -Woverloaded-virtual -Wnon-virtual-dtor -Wdouble-promotion -Wduplicated-cond -Wlogical-op -Werror)
+  -Woverloaded-virtual -Wnon-virtual-dtor -Wdouble-promotion -Wduplicated-cond -Wlogical-op -Werror
+  -Wno-restrict)  # g++ 12 reports it falsely for std::string + (GCC bug 105651)
 target_link_libraries(cw_flags INTERFACE Eigen3::Eigen fmt::fmt OpenMP::OpenMP_CXX)
 
 option(CROSSWALK_SANITIZE "Address and undefined-behaviour sanitizers" OFF)

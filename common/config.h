@@ -7,6 +7,7 @@
 // that names them. Every getter call also feeds the key reference printed by `crosswalk keys`.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -16,13 +17,9 @@
 
 #include "common/curve.h"
 #include "common/error.h"
+#include "common/units.h"
 
 namespace crosswalk {
-
-enum class Dimension {
-  None, Length, Mass, Time, Angle, Speed, Acceleration, AngularSpeed, Force, Moment, Stress, Density,
-  Stiffness, AngularStiffness, Damping, AngularDamping, Inertia, Frequency, Energy, Temperature
-};
 
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
@@ -88,11 +85,15 @@ class ConfigDocument {
   ConfigDocument& operator=(ConfigDocument&&) noexcept;
 
   ConfigTable root();
+  /// Lays `toml_text` over the document: its keys win, in whatever unit the files write them. For
+  /// options of the command line; `name` stands in messages.
+  void override_with(const std::string& toml_text, const std::string& name);
   /// Top-level tables read by someone else (another node's schema): not reported as unknown.
   void ignore_tables(const std::vector<std::string>& names);
   /// Throws every gathered problem, unknown keys included.
   void finish();
-  /// The merged document as TOML, the copy kept with a run.
+  /// The merged document as TOML, the copy kept with a run: strings that name an existing file become
+  /// absolute paths, and a comment after every value names the place it came from.
   std::string resolved_text() const;
   /// FNV-1a digest of the merged document; equal texts on all machines give equal digests.
   std::uint64_t digest() const;

@@ -1,7 +1,7 @@
 // The three kinds of failure, and the collector of user errors.
 //
-// UserError       something the user wrote is wrong: place, what was expected, what was found, how to cure it.
-// NumericalError  the computation left its valid range: time, and the element or body.
+// UserError       something the user wrote is wrong: place, what was expected, what was found, how
+// to cure it. NumericalError  the computation left its valid range: time, and the element or body.
 // ProtocolError   a peer process is missing, silent, foreign or wrong.
 // CW_ASSERT       our own bugs; active in every build, never inside kernels.
 #pragma once
@@ -98,7 +98,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 
 }  // namespace crosswalk
 
-#define CW_ASSERT(condition)                                                      \
-  (static_cast<bool>(condition)                                                   \
-       ? static_cast<void>(0)                                                     \
+#define CW_ASSERT(condition)    \
+  (static_cast<bool>(condition) \
+       ? static_cast<void>(0)   \
        : ::crosswalk::assertion_failed(#condition, std::source_location::current()))

@@ -1,10 +1,10 @@
 // What the two solver nodes and the coupler say to each other, free of any transport.
 //
-// One window of length H: the multibody side (mb) advances with the wrench of the finite-element side
-// (fe), the fe side follows the resulting boundary motion and returns the impulse it exerted. All
-// vectors in frame W (x subject's front, y buck travel, z up), SI units, 6-vectors (linear, angular),
-// wrenches "fe on mb" about the body's reference point: a point fixed in the body (protocol: its
-// multibody centre of mass at t = 0, before fe block masses are added).
+// One window of length H: the multibody side (mb) advances with the wrench of the finite-element
+// side (fe), the fe side follows the resulting boundary motion and returns the impulse it exerted.
+// All vectors in frame W (x subject's front, y buck travel, z up), SI units, 6-vectors (linear,
+// angular), wrenches "fe on mb" about the body's reference point: a point fixed in the body
+// (protocol: its multibody centre of mass at t = 0, before fe block masses are added).
 #pragma once
 
 #include <cstdint>
@@ -65,8 +65,8 @@ struct MbReply {
 /// Coupler to fe, per body: the motion to follow. With V_0 the twist after the carried impulse,
 /// V(t) = V_0 + A (t - t_n) + W sum(d (F_j - bias)); A = twist_change / H.
 struct BodyDrive {
-  Pose X_WB;          ///< at the start of the window
-  Twist V_WB;         ///< V_0
+  Pose X_WB;   ///< at the start of the window
+  Twist V_WB;  ///< V_0
   Vec6 twist_change = Vec6::Zero();
   Vec6 bias = Vec6::Zero();
 };
@@ -79,8 +79,8 @@ struct FeGrant {
 };
 
 struct BodyLoad {
-  Vec6 impulse = Vec6::Zero();  ///< sum of d F_j, fe on mb
-  Twist twist_end;              ///< of the fe block
+  Vec6 impulse = Vec6::Zero();       ///< sum of d F_j, fe on mb
+  Twist twist_end;                   ///< of the fe block
   Vec3 gap_position = Vec3::Zero();  ///< mb minus fe block at the start of the window
   Vec3 gap_rotation = Vec3::Zero();
 };
@@ -89,11 +89,11 @@ struct FeReply {
   Status status = Status::Ok;
   int substeps = 0;
   std::uint64_t state_hash = 0;
-  double stable_step = 0;  ///< s
+  double stable_step = 0;                                                     ///< s
   double kinetic = 0, internal = 0, hourglass = 0, contact = 0, damping = 0;  ///< J
-  double external_work = 0;   ///< J, gravity and loads other than the interface
-  double interface_work = 0;  ///< J, done by the interface bodies on the fe part
-  double added_mass = 0;      ///< kg
+  double external_work = 0;       ///< J, gravity and loads other than the interface
+  double interface_work = 0;      ///< J, done by the interface bodies on the fe part
+  double added_mass = 0;          ///< kg
   double head_contact_force = 0;  ///< N
   std::vector<BodyLoad> loads;
 };
@@ -126,7 +126,8 @@ struct TissueSample {
 
 enum class EventLevel : int { Info = 0, Warning = 1, Error = 2 };
 
-/// Where a solver node leaves what the recorder and viewers want; implementations number and batch it.
+/// Where a solver node leaves what the recorder and viewers want; implementations number and batch
+/// it.
 class RecordSink {
  public:
   virtual ~RecordSink() = default;
@@ -150,7 +151,8 @@ class MbParticipant {
   virtual std::string description() const = 0;
   /// Substeps done so far, read by the heartbeat thread.
   virtual std::int64_t progress() const = 0;
-  /// The complete state as bytes, for checkpoints; load_state() of the same bytes continues bit-identically.
+  /// The complete state as bytes, for checkpoints; load_state() of the same bytes continues
+  /// bit-identically.
   virtual std::vector<std::byte> save_state() const = 0;
   virtual void load_state(const std::vector<std::byte>& bytes) = 0;
 };

@@ -55,8 +55,8 @@ Wrench wrench_from(const Vec6& a);
 
 /// Mass, centre of mass and rotational inertia about that centre, all in one named frame.
 struct Inertia {
-  double mass = 0;            ///< kg
-  Vec3 com = Vec3::Zero();    ///< m
+  double mass = 0;                ///< kg
+  Vec3 com = Vec3::Zero();        ///< m
   Mat3 about_com = Mat3::Zero();  ///< kg m2
   Inertia operator+(const Inertia& other) const;
   /// Rotational inertia about another point of the same frame.

@@ -1,0 +1,141 @@
+#include "common/bus.h"
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "crosswalk/msg/node_hello.hpp"
+#include "crosswalk/msg/recorder_ack.hpp"
+#include "crosswalk/msg/run_control.hpp"
+
+namespace crosswalk {
+namespace {
+
+msg::node_hello some_hello() {
+  msg::node_hello hello{};
+  hello.body_name = {"torso_up", "buck"};
+  hello.n_bodies = 2;
+  hello.host = "here";
+  hello.version = "1";
+  return hello;
+}
+
+TEST(Bus, DeliversToOtherNodesOfTheRunOnly) {
+  const auto transport = memory_transport();
+  Bus recorder(transport, "run-a", Role::Recorder);
+  Bus coupler(transport, "run-a", Role::Coupler);
+  Bus stranger(transport, "run-b", Role::Coupler);
+  int heard = 0, strange = 0;
+  coupler.subscribe<msg::recorder_ack>(Role::Recorder, [&](const msg::recorder_ack& m) {
+    ++heard;
+    EXPECT_EQ(m.window, 42);
+    EXPECT_EQ(m.h.seq, 5);
+    EXPECT_EQ(m.h.instance, recorder.instance());
+  });
+  stranger.subscribe<msg::recorder_ack>(Role::Recorder,
+                                        [&](const msg::recorder_ack&) { ++strange; });
+  msg::recorder_ack ack{};
+  ack.window = 42;
+  recorder.publish(ack, 5);
+  coupler.handle_pending();
+  EXPECT_EQ(heard, 1);
+  EXPECT_EQ(strange, 0);
+}
+
+TEST(Bus, HandlerExceptionsComeOutOfWait) {
+  const auto transport = memory_transport();
+  Bus sender(transport, "r", Role::Recorder);
+  Bus receiver(transport, "r", Role::Coupler);
+  receiver.subscribe<msg::recorder_ack>(
+      Role::Recorder, [](const msg::recorder_ack&) { throw NumericalError(0.1, "broken"); });
+  sender.publish(msg::recorder_ack{}, 0);
+  EXPECT_THROW(receiver.handle_pending(), NumericalError);
+  EXPECT_NO_THROW(receiver.handle_pending());
+}
+
+TEST(Bus, GateRefusesTruncatedOversizedForeignAndForgedMessages) {
+  const auto transport = memory_transport();
+  Bus sender(transport, "r", Role::Mb);
+  Bus gate(transport, "r", Role::Coupler);
+  const std::vector<std::byte> good = sender.publish(some_hello(), 0);
+  msg::node_hello out{};
+  EXPECT_TRUE(gate.decode(good, out, Role::Mb));
+  EXPECT_EQ(out.body_name, some_hello().body_name);
+  EXPECT_FALSE(gate.decode(good, out, Role::Fe)) << "sender's role does not fit the channel";
+
+  for (std::size_t n = 0; n < good.size(); ++n) {
+    EXPECT_FALSE(gate.decode({good.data(), n}, out, Role::Mb)) << "truncated to " << n;
+  }
+  std::vector<std::byte> forged = good;
+  forged.resize(static_cast<std::size_t>(kMaxMessageBytes) + 1);
+  EXPECT_FALSE(gate.decode(forged, out, Role::Mb));
+  forged = good;
+  forged[8 + 28 + 20] = std::byte{0x7f};  // n_bodies of two thousand million
+  EXPECT_FALSE(gate.decode(forged, out, Role::Mb));
+  forged = good;
+  forged[8 + 28 + 28] = std::byte{0xff};  // negative length of the first string
+  EXPECT_FALSE(gate.decode(forged, out, Role::Mb));
+  EXPECT_GT(gate.dropped(), 4);
+}
+
+TEST(Bus, RandomBytesNeitherPassNorCrash) {
+  const auto transport = memory_transport();
+  Bus sender(transport, "r", Role::Coupler);
+  Bus gate(transport, "r", Role::Mb);
+  std::mt19937 random(1);
+  msg::run_control control{};
+  control.text = "reason";
+  const std::vector<std::byte> good = sender.publish(control, 0);
+  int passed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::vector<std::byte> bytes = good;
+    const int mutations = 1 + static_cast<int>(random() % 8);
+    for (int k = 0; k < mutations; ++k)
+      bytes[random() % bytes.size()] = static_cast<std::byte>(random());
+    bytes.resize(random() % (bytes.size() + 1) + (random() % 4 == 0 ? 20 : 0));
+    msg::run_control out{};
+    passed += gate.decode(bytes, out, Role::Coupler) ? 1 : 0;
+    EXPECT_LE(out.text.size(), static_cast<std::size_t>(kMaxMessageBytes));
+  }
+  EXPECT_LT(passed, 2000) << "only flips inside free fields may pass";
+}
+
+TEST(Bus, OwnMessagesAreNotHeard) {
+  const auto transport = memory_transport();
+  Bus bus(transport, "r", Role::Coupler);
+  int heard = 0;
+  bus.subscribe<msg::run_control>(Role::Coupler, [&](const msg::run_control&) { ++heard; });
+  bus.publish(msg::run_control{}, 0);
+  bus.handle_pending();
+  EXPECT_EQ(heard, 0);
+}
+
+TEST(BusFaults, AreReadStrictly) {
+  const BusFaults faults =
+      BusFaults::from_text("loss=0.05 duplicate=0.02 reorder=0.01 delay_ms=20 seed=7");
+  EXPECT_EQ(faults.loss, 0.05);
+  EXPECT_EQ(faults.delay_ms, 20);
+  EXPECT_EQ(faults.seed, 7U);
+  EXPECT_THROW(BusFaults::from_text("los=0.05"), UserError);
+  EXPECT_THROW(BusFaults::from_text("loss=2"), UserError);
+  EXPECT_THROW(BusFaults::from_text("loss"), UserError);
+}
+
+TEST(BusFaults, LossAndDuplicationHappenAtTheirRates) {
+  const auto transport = memory_transport();
+  Bus sender(transport, "r", Role::Recorder, BusFaults{.loss = 0.2, .duplicate = 0.1});
+  Bus receiver(transport, "r", Role::Coupler);
+  std::vector<int> copies(2000);
+  receiver.subscribe<msg::recorder_ack>(Role::Recorder, [&](const msg::recorder_ack& m) {
+    ++copies[static_cast<std::size_t>(m.h.seq)];
+  });
+  for (int i = 0; i < 2000; ++i) sender.publish(msg::recorder_ack{}, i);
+  receiver.handle_pending();
+  // Binomial, five standard deviations.
+  EXPECT_NEAR(static_cast<double>(std::count(copies.begin(), copies.end(), 0)), 400, 90);
+  EXPECT_NEAR(static_cast<double>(std::count(copies.begin(), copies.end(), 2)), 160, 63);
+}
+
+}  // namespace
+}  // namespace crosswalk

@@ -1,0 +1,46 @@
+// Constraints on single nodes: fixed or prescribed directions, and nodes tied to a facet.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/curve.h"
+#include "common/spatial.h"
+
+namespace crosswalk::fe {
+
+/// Translations (and, for shells, rotations) along global axes that may not move.
+struct FixedNode {
+  int node = 0;
+  std::array<bool, 3> translation{};
+  std::array<bool, 3> rotation{};
+};
+
+enum class MotionKind { Velocity, Acceleration, Displacement };
+
+/// One global direction of some nodes follows scale * curve(t).
+struct GuidedNodes {
+  std::vector<int> nodes;
+  Vec3 direction = Vec3::UnitX();  ///< unit
+  MotionKind kind = MotionKind::Velocity;
+  Curve curve;  ///< of time, SI
+  double scale = 1;
+};
+
+/// A node that moves with the interpolated motion of up to four others (weights sum to 1).
+struct TiedNode {
+  int node = 0;
+  int count = 0;
+  std::array<int, 4> master{};
+  std::array<double, 4> weight{};
+};
+
+/// Force curve on nodes, N each.
+struct NodalForce {
+  std::vector<int> nodes;
+  Vec3 direction = Vec3::UnitX();
+  Curve curve;
+  double scale = 1;
+};
+
+}  // namespace crosswalk::fe

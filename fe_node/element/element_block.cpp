@@ -1,0 +1,42 @@
+#include "fe_node/element/element_block.h"
+
+#include "common/error.h"
+
+namespace crosswalk::fe {
+
+ElementBlock::ElementBlock(const Mesh& mesh, ElementKind kind, int part,
+                           std::vector<int> mesh_elements)
+    : kind_(kind),
+      part_(part),
+      corners_(corner_count(kind)),
+      mesh_elements_(std::move(mesh_elements)) {
+  CW_ASSERT(!mesh_elements_.empty());
+  nodes_.reserve(static_cast<std::size_t>(group_count()) * corners_ * kLanes);
+  for (int group = 0; group < group_count(); ++group)
+    for (int corner = 0; corner < corners_; ++corner)
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const int element = std::min(group * kLanes + lane, element_count() - 1);
+        nodes_.push_back(mesh.corners(kind, mesh_elements_[element])[corner]);
+      }
+}
+
+Lanes ElementBlock::lane_mask(int group) const {
+  Lanes mask;
+  for (int lane = 0; lane < kLanes; ++lane)
+    mask[lane] = group * kLanes + lane < element_count() ? 1.0 : 0.0;
+  return mask;
+}
+
+NodeLanes load_nodes(std::span<const NodeRecord> nodes, const int* index) {
+  NodeLanes out;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const NodeRecord& node = nodes[index[lane]];
+    for (int axis = 0; axis < 3; ++axis) {
+      out.x[axis][lane] = node.x[axis];
+      out.v[axis][lane] = node.v[axis];
+    }
+  }
+  return out;
+}
+
+}  // namespace crosswalk::fe

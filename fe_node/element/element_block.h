@@ -1,0 +1,121 @@
+// A homogeneous block of elements: one element kind, one part, one material law, in lane groups of
+// eight. A block is immutable; what changes lives in a flat history array of the State.
+//
+// Each step a block turns positions and velocities into one force per element corner (f_int with
+// the sign of a load on the node: the acceleration is (sum of corner forces + loads) / mass).
+// Corners are stored, not added up: the solver gathers them per node in a fixed order, so results
+// are bit-identical for any number of threads. The last group is padded by repeating its last
+// element; padded lanes are never gathered nor summed.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/spatial.h"
+#include "fe_node/material/lanes.h"
+#include "fe_node/mesh/mesh.h"
+#include "fe_node/mesh/node_record.h"
+
+namespace crosswalk::fe {
+
+/// What a block may read of the present state.
+struct StepContext {
+  std::span<const NodeRecord> nodes;  ///< x at t, v at t - dt/2
+  std::span<const Vec3>
+      spin;         ///< angular velocity of nodes at t - dt/2, rad/s; empty without shells
+  double time = 0;  ///< s, of the positions
+  double dt = 0;    ///< s, from the last positions to these
+  bool wants_stable_step = true;
+};
+
+/// Sums over the elements of a chunk; energies in J.
+struct BlockSums {
+  double internal = 0;              ///< work done on the material, since the start
+  double hourglass = 0;             ///< stored by stiffness control, now
+  double hourglass_dissipated = 0;  ///< by viscous control, this step
+  double viscous_dissipated = 0;    ///< by bulk viscosity and damping, this step
+  double stable_step = std::numeric_limits<double>::infinity();  ///< s, unscaled
+  int critical_element = -1;  ///< block-local element that sets it
+  int inverted_element = -1;  ///< block-local element with J <= 0 or NaN, or -1
+  int failed = 0;             ///< elements that carry nothing any more
+};
+
+/// The state of one element as outputs want it; Cauchy stress in W.
+struct ElementSample {
+  Vec3 centre = Vec3::Zero();
+  double volume = 0;                    ///< undeformed, m3
+  Mat3 stress = Mat3::Zero();           ///< Pa
+  Mat3 deformation = Mat3::Identity();  ///< F; for shells and lines see the block
+  double energy = 0;                    ///< J
+  double plastic_strain = 0;
+  bool is_alive = true;
+};
+
+class ElementBlock {
+ public:
+  virtual ~ElementBlock() = default;
+
+  ElementKind kind() const { return kind_; }
+  int part() const { return part_; }
+  int element_count() const { return static_cast<int>(mesh_elements_.size()); }
+  int group_count() const { return (element_count() + kLanes - 1) / kLanes; }
+  int corners() const { return corners_; }
+  /// Index in the mesh table of a block-local element.
+  int mesh_element(int element) const { return mesh_elements_[element]; }
+  /// Node of a corner; padded lanes repeat the last element.
+  int node(int group, int corner, int lane) const {
+    return nodes_[static_cast<std::size_t>(group * corners_ + corner) * kLanes + lane];
+  }
+  /// True when corners also carry moments (shells, beams).
+  virtual bool has_moments() const { return false; }
+  /// Numbers per lane group in the history array (a multiple of kLanes).
+  virtual int history_per_group() const = 0;
+  virtual void initialise(std::span<double> history) const = 0;
+  /// Lumped mass of each corner of an element, kg, undeformed.
+  virtual double corner_mass(int element) const = 0;
+  /// Lumped rotary inertia of each corner, kg m2; only with moments.
+  virtual double corner_inertia(int /*element*/) const { return 0; }
+  virtual double element_volume(int element) const = 0;
+  virtual double density() const = 0;
+
+  /// Forces of groups [first, last). `history` and `corner_forces` belong to the whole block:
+  /// corner_forces[((group * corners + corner) * 3 + axis) * kLanes + lane]; moments likewise.
+  virtual void forces(const StepContext& step, std::span<double> history,
+                      std::span<double> corner_forces, std::span<double> corner_moments, int first,
+                      int last, BlockSums& sums) const = 0;
+
+  /// The stable step of one element, undeformed and unscaled, s.
+  virtual double initial_stable_step(int element) const = 0;
+  virtual ElementSample sample(const StepContext& step, std::span<const double> history,
+                               int element) const = 0;
+
+ protected:
+  /// Takes the elements of `part` out of the mesh table in the order given.
+  ElementBlock(const Mesh& mesh, ElementKind kind, int part, std::vector<int> mesh_elements);
+
+  const int* group_nodes(int group) const {
+    return nodes_.data() + static_cast<std::size_t>(group) * corners_ * kLanes;
+  }
+  /// 1 for real elements, 0 for padding.
+  Lanes lane_mask(int group) const;
+
+ private:
+  ElementKind kind_;
+  int part_;
+  int corners_;
+  std::vector<int> mesh_elements_;
+  std::vector<int> nodes_;
+};
+
+/// Lane `l` of the result is component-wise the record of node index[l]: position in x, velocity in
+/// v.
+struct NodeLanes {
+  Lanes x[3], v[3];
+};
+NodeLanes load_nodes(std::span<const NodeRecord> nodes, const int* index);
+
+}  // namespace crosswalk::fe

@@ -1,0 +1,44 @@
+// Isotropic elasticity: compressible neo-Hooke in the form without roots or logarithms of J's
+// powers,
+//   W = mu/2 (tr C - 3) - mu ln J + lambda/2 (J - 1)^2,   P = mu (F - F^-T) + lambda (J - 1) J F^-T
+// [bonet2008, 6.4.3, with the volumetric term in J - 1]. Equal to Hooke's law for small strain,
+// exact under rotation, and conservative. For soft tissue lambda >> mu: pressure is -lambda (J - 1)
+// with J from nodal positions, never from summed increments.
+#pragma once
+
+#include "fe_node/material/material.h"
+
+namespace crosswalk::fe {
+
+struct Elastic {
+  double density = 0;  ///< kg/m3
+  double lambda = 0;   ///< Pa
+  double mu = 0;       ///< Pa
+
+  static Elastic from_young(double density, double youngs_modulus, double poisson_ratio);
+  static Elastic from_bulk(double density, double bulk_modulus, double shear_modulus);
+
+  int history_size() const { return 0; }
+  double shear_modulus() const { return mu; }
+  double bulk_modulus() const { return lambda + 2.0 / 3.0 * mu; }
+
+  template <class N>
+  void initialise(N* /*history*/) const {}
+
+  template <class N>
+  SolidAnswer<N> update(const SolidStep<N>& step, N* /*history*/) const {
+    SolidAnswer<N> answer;
+    const N& J = step.J;
+    const N dilation = J - 1.0;
+    const N a = lambda * dilation * J - mu;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) answer.P(i, j) = mu * step.F(i, j) + a * step.F_inverse(j, i);
+    answer.energy = 0.5 * mu * (contract(step.F, step.F) - 3.0) - mu * logarithm(J) +
+                    0.5 * lambda * dilation * dilation;
+    answer.bulk_modulus = constant<N>(bulk_modulus());
+    answer.shear_modulus = constant<N>(mu);
+    return answer;
+  }
+};
+
+}  // namespace crosswalk::fe

@@ -1,0 +1,1 @@
+#include "fe_node/model.h"

@@ -1,0 +1,59 @@
+// The finite-element model: everything that does not change during a run. SI, frame W after
+// placing. Built once by the model builder (or by hand in tests) and completed by finish().
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fe_node/constraint/nodal.h"
+#include "fe_node/constraint/rigid_body.h"
+#include "fe_node/contact/contact.h"
+#include "fe_node/element/element_block.h"
+#include "fe_node/mesh/corner_table.h"
+#include "fe_node/mesh/mesh.h"
+
+namespace crosswalk::fe {
+
+struct SolverSettings {
+  double step_scale = 0.9;       ///< of the smallest stable step [hallquist2006, 22.1]
+  double fixed_step = 0;         ///< s; > 0 overrules the estimate
+  double mass_scaling_step = 0;  ///< s; > 0: mass is added so that no element needs less
+  double mass_damping = 0;       ///< 1/s, Rayleigh alpha on all nodes
+  Vec3 gravity = Vec3::Zero();   ///< m/s2
+};
+
+struct StartVelocity {
+  std::vector<int> nodes;
+  Vec3 velocity = Vec3::Zero();
+};
+
+struct Model {
+  Mesh mesh;
+  std::vector<std::unique_ptr<const ElementBlock>> blocks;
+  std::vector<RigidBody> bodies;
+  std::vector<std::unique_ptr<const ContactInterface>> contacts;
+  std::vector<FixedNode> fixed;
+  std::vector<GuidedNodes> guided;
+  std::vector<TiedNode> tied;
+  std::vector<NodalForce> nodal_forces;
+  std::vector<StartVelocity> start_velocities;
+  std::vector<double> point_mass;  ///< kg per node, from mass elements; may be empty
+  SolverSettings settings;
+
+  // Filled by finish().
+  CornerTable corner_forces;   ///< node -> slots of the corner force array
+  CornerTable corner_moments;  ///< node -> slots of the corner moment array
+  std::vector<std::size_t> force_offset, moment_offset;  ///< of each block in those arrays
+  std::vector<double> mass;                              ///< kg per node, added mass included
+  std::vector<double> inertia;                           ///< kg m2 per node; empty without shells
+  std::vector<int> body_of_node;                         ///< index into bodies, or -1
+  std::vector<double> added_mass;                        ///< kg per part, by mass scaling
+
+  /// Lumps masses, scales mass, builds the corner tables. Call once, last.
+  void finish();
+  bool has_rotations() const { return !inertia.empty(); }
+};
+
+}  // namespace crosswalk::fe

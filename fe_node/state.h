@@ -1,0 +1,30 @@
+// Everything that changes during a run, as a plain value: save is copy, restore is assign.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fe_node/constraint/rigid_body.h"
+#include "fe_node/contact/contact.h"
+#include "fe_node/energy.h"
+#include "fe_node/material/lanes.h"
+#include "fe_node/mesh/node_record.h"
+
+namespace crosswalk::fe {
+
+/// Doubles aligned for lane loads.
+using LaneVector = std::vector<double, Eigen::aligned_allocator<double>>;
+
+struct State {
+  double time = 0;        ///< s
+  std::int64_t step = 0;  ///< steps done
+  double last_dt = 0;     ///< s, of the step that led here
+  std::vector<NodeRecord> nodes;
+  std::vector<Vec3> spin;           ///< nodal angular velocity at t - dt/2; empty without shells
+  std::vector<BodyState> bodies;    ///< like Model::bodies
+  std::vector<LaneVector> history;  ///< per block
+  std::vector<ContactHistory> contacts;
+  Energies energies;
+};
+
+}  // namespace crosswalk::fe

@@ -267,7 +267,7 @@ Eigen::MatrixXd measure_mobility(OdeWorld& world, std::span<const BodyPoint> poi
                                  double time_s) {
   constexpr double kForceImpulse = 1e-3;      // N s: far above rounding, far below any motion
   constexpr double kMomentImpulse = 1e-5;     // N m s
-  constexpr double kSmallestMobility = 1e-9;  // of the scaled matrix; rounding noise is 1e-12
+  constexpr double kSmallestMobility = 1e-6;  // of the scaled matrix; ODE softens joints by 1e-7
   const int n = static_cast<int>(points.size());
   const WorldState start = world.save();
   std::vector<Vec3> arms;

@@ -83,9 +83,10 @@ struct BodyPoint {
 };
 
 /// Velocity change (linear, angular) of each point per unit impulse (N s, N m s) on each, all
-/// joints acting: W = J M^-1 J^T, 6n x 6n, measured by one step per column and symmetrised. The
-/// world is left as found. Throws NumericalError when W is not symmetric to `kMobilityAsymmetry` or
-/// not positive definite.
+/// joints acting: W = J M^-1 J^T, 6n x 6n, measured by one step per column and symmetrised.
+/// Positive definite, or semi-definite when a joint links two of the bodies. The world is left as
+/// found. Throws NumericalError when the scaled W (unit diagonal) is not so to within
+/// `kMobilityAsymmetry`.
 inline constexpr double kMobilityAsymmetry = 1e-6;
 Eigen::MatrixXd measure_mobility(OdeWorld& world, std::span<const BodyPoint> points, double dt,
                                  double time_s);

@@ -115,18 +115,11 @@ TEST(OdeWorldMobility, OfATwoBodyChainIsTheConstrainedInverse) {
     }
     const Eigen::Matrix<double, 12, 12> expected =
         inverse - inverse * G.transpose() * (G * inverse * G.transpose()).inverse() * G * inverse;
-    const std::vector<BodyPoint> light = {{1, Vec3::Zero()}};
-    const Eigen::MatrixXd W = measure_mobility(world, light, kStep, 0);
-    const Eigen::MatrixXd block = expected.block<6, 6>(6, 6);
-    EXPECT_LT((W - block).norm() / block.norm(), 1e-6);
+    // Both bodies together have 9 freedoms for 12 rows: W is singular, and still right.
+    const std::vector<BodyPoint> points = {{0, Vec3::Zero()}, {1, Vec3::Zero()}};
+    const Eigen::MatrixXd W = measure_mobility(world, points, kStep, 0);
+    EXPECT_LT((W - expected).norm() / expected.norm(), 1e-6);
   }
-}
-
-TEST(OdeWorldMobility, RefusesBodiesThatDoNotMoveIndependently) {
-  // Both bodies of the chain together have 9 freedoms for 12 rows.
-  OdeWorld world = two_body_chain(Stepper::Direct);
-  const std::vector<BodyPoint> both = {{0, Vec3::Zero()}, {1, Vec3::Zero()}};
-  EXPECT_THROW(measure_mobility(world, both, kStep, 0), NumericalError);
 }
 
 TEST(OdeWorldMobility, LeavesTheWorldAsFound) {

@@ -1,0 +1,70 @@
+// The lockstep clients: they turn grants into calls of a participant's verbs, exactly once each.
+//
+// A grant with the next number is executed and its answer kept; the same number again gets the kept
+// answer; an older one is ignored. So lost, doubled and reordered messages cannot change a result.
+#pragma once
+
+#include <map>
+
+#include "common/exchange.h"
+#include "common/node_session.h"
+
+namespace crosswalk {
+
+/// Number of the last grant executed and the encoded answers to it.
+class GrantLedger {
+ public:
+  enum class Verdict { Execute, Repeat, Ignore };
+  /// Throws ProtocolError when `seq` skips a grant.
+  Verdict judge(std::int64_t seq) const;
+  void executed(std::int64_t seq, std::vector<std::byte> answer);
+  std::int64_t last() const { return last_; }
+  /// All answers kept, by number: the recorder may have missed any of them.
+  const std::vector<std::byte>* answer(std::int64_t seq) const;
+
+ private:
+  std::int64_t last_ = -1;
+  std::vector<std::vector<std::byte>> answers_;
+};
+
+class MbSession : public NodeSession {
+ public:
+  MbSession(Bus& bus, MbParticipant& participant, NodeIdentity identity, Limits limits);
+
+ private:
+  void on_manifest(const msg::run_manifest& manifest) override;
+  void on_resend(const msg::resend_request& request) override;
+  std::int64_t progress() const override { return participant_.progress(); }
+  void take_masses(const msg::boundary_mass& m);
+  void on_grant(const msg::step_to_mb& m);
+  void execute(const msg::step_to_mb& m);
+
+  MbParticipant& participant_;
+  GrantLedger ledger_;
+  std::vector<InterfaceBody> bodies_;
+  bool has_masses_ = false;
+  std::vector<std::byte> mobility_;  ///< measured for the last grant, or empty
+};
+
+class FeSession : public NodeSession {
+ public:
+  FeSession(Bus& bus, FeParticipant& participant, NodeIdentity identity, Limits limits);
+
+ private:
+  void on_manifest(const msg::run_manifest&) override {}
+  void on_resend(const msg::resend_request& request) override;
+  std::int64_t progress() const override { return participant_.progress(); }
+  void take_motion(const msg::boundary_motion& m);
+  void take_mobility(const msg::mobility& m);
+  void on_grant(const msg::step_to_fe& m);
+  void execute(const msg::step_to_fe& m);
+
+  FeParticipant& participant_;
+  GrantLedger ledger_;
+  std::vector<InterfaceBody> bodies_;
+  bool is_placed_ = false;
+  std::map<int, Eigen::MatrixXd> mobilities_;     ///< the latest few, by id
+  std::optional<msg::step_to_fe> waiting_grant_;  ///< its mobility has not arrived yet
+};
+
+}  // namespace crosswalk

@@ -37,6 +37,7 @@ std::string range_text(Range range, const Unit* unit) {
 }  // namespace
 
 void ConfigTable::Impl::add(Problem problem, std::string missing) {
+  if (document->is_reference) return;
   document->findings.push_back({std::move(problem), std::move(missing)});
 }
 
@@ -328,6 +329,13 @@ std::vector<ConfigTable> ConfigTable::tables(std::string_view name, std::string_
   impl_->document->document("[[" + joined(impl_->pattern, name) + "]]", "", "", "", doc);
   const Impl::Found found = impl_->plain(name);
   std::vector<ConfigTable> children;
+  if (impl_->document->is_reference) {
+    children.emplace_back().impl_ = std::make_shared<Impl>(Impl{.document = impl_->document,
+                                                                .node = nullptr,
+                                                                .path = pattern,
+                                                                .pattern = pattern,
+                                                                .place = {}});
+  }
   if (found.node == nullptr) return children;
   const bool is_empty_array = found.node->kind == Node::Kind::Array && found.node->items.empty();
   if (!found.node->is_table_array() && !is_empty_array) {
@@ -352,6 +360,7 @@ std::vector<ConfigTable> ConfigTable::tables(std::string_view name, std::string_
 std::vector<std::string> ConfigTable::table_names() const {
   impl_->is_open_set = true;
   std::vector<std::string> names;
+  if (impl_->document->is_reference) names.emplace_back("<name>");
   if (impl_->node == nullptr) return names;
   for (const Entry& entry : impl_->node->entries)
     if (entry.node.kind == Node::Kind::Table) names.push_back(entry.key);

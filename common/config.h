@@ -1,10 +1,11 @@
 // Strict reading of TOML scenario files: typed getters with unit, range, default and a doc line.
 //
-// A quantity's key ends in its unit (`standing_height_mm`); the getter names the bare quantity and its
-// dimension and returns SI. Missing, unknown, doubled, mistyped and out-of-range keys are gathered and
-// reported together as `file:line:column: key: expected E, found F; hint`. `base = "file.toml"` in a
-// table merges that file's tables underneath (keys given here win); paths are relative to the file
-// that names them. Every getter call also feeds the key reference printed by `crosswalk keys`.
+// A quantity's key ends in its unit (`standing_height_mm`); the getter names the bare quantity and
+// its dimension and returns SI. Missing, unknown, doubled, mistyped and out-of-range keys are
+// gathered and reported together as `file:line:column: key: expected E, found F; hint`. `base =
+// "file.toml"` in a table merges that file's tables underneath (keys given here win); paths are
+// relative to the file that names them. Every getter call also feeds the key reference printed by
+// `crosswalk keys`.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +26,16 @@ struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
 };
-constexpr Range kPositive{std::numeric_limits<double>::min(), std::numeric_limits<double>::infinity()};
+constexpr Range kPositive{std::numeric_limits<double>::min(),
+                          std::numeric_limits<double>::infinity()};
 constexpr Range kNonNegative{0, std::numeric_limits<double>::infinity()};
 
 class ConfigDocument;
 
 /// A view of one table of a document. Cheap to copy; the document must outlive it.
-/// All SI out. Getters of a wrong or missing key record a problem and return the fallback (or a NaN,
-/// zero, empty string), so that one run reports every mistake; ConfigDocument::finish() then throws.
+/// All SI out. Getters of a wrong or missing key record a problem and return the fallback (or a
+/// NaN, zero, empty string), so that one run reports every mistake; ConfigDocument::finish() then
+/// throws.
 class ConfigTable {
  public:
   double quantity(std::string_view name, Dimension dimension, Range range, std::string_view doc);
@@ -65,7 +68,8 @@ class ConfigTable {
   /// Where this table, or one of its keys, stands.
   Place place(std::string_view key = {}) const;
   /// Records a problem found by the caller (a rule between keys), at this table's key.
-  void problem(std::string_view key, std::string expected, std::string found, std::string hint = {});
+  void problem(std::string_view key, std::string expected, std::string found,
+               std::string hint = {});
 
  private:
   friend class ConfigDocument;
@@ -80,6 +84,9 @@ class ConfigDocument {
   /// From a string, for tests; `name` stands in messages, `base` paths are relative to `folder`.
   static ConfigDocument from_text(std::string text, const std::string& name,
                                   const std::filesystem::path& folder = ".");
+  /// A document in which every getter finds nothing and complains of nothing: reading a schema from
+  /// it fills the key reference.
+  static ConfigDocument for_reference();
   ~ConfigDocument();
   ConfigDocument(ConfigDocument&&) noexcept;
   ConfigDocument& operator=(ConfigDocument&&) noexcept;
@@ -92,8 +99,8 @@ class ConfigDocument {
   void ignore_tables(const std::vector<std::string>& names);
   /// Throws every gathered problem, unknown keys included.
   void finish();
-  /// The merged document as TOML, the copy kept with a run: strings that name an existing file become
-  /// absolute paths, and a comment after every value names the place it came from.
+  /// The merged document as TOML, the copy kept with a run: strings that name an existing file
+  /// become absolute paths, and a comment after every value names the place it came from.
   std::string resolved_text() const;
   /// FNV-1a digest of the merged document; equal texts on all machines give equal digests.
   std::uint64_t digest() const;

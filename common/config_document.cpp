@@ -32,6 +32,12 @@ ConfigDocument ConfigDocument::from_text(std::string text, const std::string& na
   return ConfigDocument(std::move(impl));
 }
 
+ConfigDocument ConfigDocument::for_reference() {
+  auto impl = std::make_shared<Impl>();
+  impl->is_reference = true;
+  return ConfigDocument(std::move(impl));
+}
+
 ConfigDocument::~ConfigDocument() = default;
 ConfigDocument::ConfigDocument(ConfigDocument&&) noexcept = default;
 ConfigDocument& ConfigDocument::operator=(ConfigDocument&&) noexcept = default;

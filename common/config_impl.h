@@ -31,6 +31,7 @@ struct ConfigDocument::Impl {
   };
 
   config::Node tree;
+  bool is_reference = false;  ///< open sets and arrays of tables show one element
   std::set<std::string> ignored;
   std::vector<config::Finding> findings;
   std::vector<Row> rows;

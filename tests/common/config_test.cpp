@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace crosswalk {
 namespace {
@@ -36,8 +37,7 @@ void read_height(ConfigTable root) {
 class ConfigFiles : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::path(testing::TempDir()) / ("config_test_" + std::to_string(getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -325,6 +325,18 @@ TEST(Config, KeyReferenceListsEveryGetterOnce) {
             "| `[coupling]` |  |  |  | How the two sides are coupled. |\n"
             "| `coupling.window` | _s, _ms, _us or _ns | 1e-06 .. 0.0001 s | 2e-05 s | Length of a "
             "window. |\n");
+}
+
+TEST(Config, ReferenceDocumentShowsArraysAndOpenSetsWithoutComplaint) {
+  ConfigDocument doc = ConfigDocument::for_reference();
+  for (ConfigTable& face : doc.root().tables("interfaces", "")) face.text("body", "A body.");
+  ConfigTable joints = doc.root().table("joint", "");
+  for (const std::string& name : joints.table_names())
+    joints.table(name, "").quantity("stop", Dimension::Angle, {}, "Its stop.");
+  EXPECT_NO_THROW(doc.finish());
+  EXPECT_THAT(doc.key_reference(),
+              HasSubstr("| `interfaces[].body` | - | text | required | A body. |"));
+  EXPECT_THAT(doc.key_reference(), HasSubstr("| `joint.<name>.stop` | _rad or _deg |"));
 }
 
 TEST(Config, AtMostTwentyProblemsAreShown) {

@@ -1,0 +1,10 @@
+// Ctrl-C and termination requests as a flag that long loops ask.
+#pragma once
+
+namespace crosswalk {
+
+/// From now on SIGINT and SIGTERM raise the flag; a second one ends the process at once.
+void catch_interrupts();
+bool is_interrupted();
+
+}  // namespace crosswalk

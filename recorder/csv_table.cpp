@@ -150,13 +150,21 @@ std::vector<double> time_column(const CsvTable& table) {
   return table.column("t");
 }
 
-Series read_series(const std::filesystem::path& path) {
-  const CsvTable table = read_csv(path);
-  if (table.names.size() != 2 || !is_time_name(table.names[0])) {
+std::vector<double> value_column(const CsvTable& table) {
+  std::vector<std::size_t> values;
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    if (!is_time_name(table.names[i]) && table.names[i] != "sigma") values.push_back(i);
+  }
+  if (values.size() != 1) {
     throw SignalError(SignalFault::Shape, fmt::format("{}: expected the columns t,value; found {}",
                                                       table.file, joined(table.names)));
   }
-  return {time_column(table), table.columns[1]};
+  return table.columns[values[0]];
+}
+
+Series read_series(const std::filesystem::path& path) {
+  const CsvTable table = read_csv(path);
+  return {time_column(table), value_column(table)};
 }
 
 }  // namespace crosswalk::recording

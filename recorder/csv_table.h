@@ -35,6 +35,9 @@ CsvTable parse_csv(const std::string& text, const std::string& name);
 std::vector<double> time_column(const CsvTable& table);
 bool is_time_name(const std::string& name);
 
+/// The one column that is neither time nor `sigma`; a shape fault when there are several.
+std::vector<double> value_column(const CsvTable& table);
+
 /// A file of two columns, time and value, whatever the second is called.
 Series read_series(const std::filesystem::path& path);
 

@@ -1,0 +1,70 @@
+#include "recorder/commands/command_line.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "recorder/commands/commands.h"
+
+namespace crosswalk::recording {
+
+namespace {
+
+/// What the parser fills; it outlives the parser inside the returned action.
+template <typename Request>
+struct Parsed {
+  Request request;
+  bool is_json = false;
+  OutputForm form() const { return is_json ? OutputForm::Json : OutputForm::Text; }
+};
+
+[[noreturn]] void wrong_usage(const std::string& what, const std::string& expected) {
+  Problem problem;
+  problem.what = what;
+  problem.expected = expected;
+  throw UserError(problem);
+}
+
+}  // namespace
+
+std::function<ExitCode()> define_rate(CLI::App& app) {
+  auto parsed = std::make_shared<Parsed<RateRequest>>();
+  RateRequest& r = parsed->request;
+  app.add_option("method", r.method, "cora or iso18571")
+      ->required()
+      ->check(CLI::IsMember({"cora", "iso18571"}));
+  app.add_option("files", r.files,
+                 "PAIR.csv (columns t,ref,sim[,sigma]) or REF.csv SIM.csv (columns t,value)")
+      ->expected(0, 2);
+  app.add_option("--run", r.run, "rate this run's channels ...");
+  app.add_option("--reference-run", r.reference_run, "... against this run's");
+  app.add_option("--parameters", r.parameters,
+                 "JSON object with parameters under the method's own names");
+  app.add_option("--set", r.set,
+                 "TOML file of signals and weights (default: the five head signals)");
+  app.add_flag("--json", parsed->is_json, "one JSON object in full precision");
+  return [parsed] {
+    return reported(parsed->form(), [&parsed] {
+      const RateRequest& request = parsed->request;
+      const bool has_runs = !request.run.empty() && !request.reference_run.empty();
+      if (has_runs == !request.files.empty()) {
+        wrong_usage("rate", "PAIR.csv, or REF.csv SIM.csv, or --run A --reference-run B");
+      }
+      return rate(request, parsed->form());
+    });
+  };
+}
+
+std::function<ExitCode()> define_injury(CLI::App& app) {
+  auto parsed = std::make_shared<Parsed<InjuryRequest>>();
+  app.add_option("source", parsed->request.source,
+                 "CSV of head signals (columns t,ax,ay,az and more), or a run")
+      ->required();
+  app.add_flag("--no-filter", parsed->request.is_filtered, "the signals are filtered already");
+  app.add_flag("--json", parsed->is_json, "one JSON object in full precision");
+  return [parsed] {
+    return reported(parsed->form(), [&parsed] { return injury(parsed->request, parsed->form()); });
+  };
+}
+
+}  // namespace crosswalk::recording

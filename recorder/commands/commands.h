@@ -1,0 +1,39 @@
+// The recorder's commands besides `run`, each as the exit code of one call.
+//
+// Bad input ends with exit 2 and one line: as text on stderr, or with --json as one object
+// {"error": "<code>", "message": "..."} on stdout.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/error.h"
+#include "recorder/channel.h"
+
+namespace crosswalk::recording {
+
+enum class OutputForm { Text, Json };
+
+struct RateRequest {
+  std::string method;                        ///< "cora" or "iso18571"
+  std::vector<std::filesystem::path> files;  ///< PAIR.csv, or REF.csv SIM.csv
+  std::filesystem::path run, reference_run;  ///< two runs instead of files
+  std::filesystem::path parameters;          ///< JSON with overrides; may be empty
+  std::filesystem::path set;                 ///< TOML rating set; empty: the paper's five signals
+};
+
+struct InjuryRequest {
+  std::filesystem::path source;  ///< CSV of signals, or a run folder
+  bool is_filtered = false;      ///< the signals are filtered already
+};
+
+ExitCode rate(const RateRequest& request, OutputForm form);
+ExitCode injury(const InjuryRequest& request, OutputForm form);
+
+/// Runs `command`; SignalError and UserError become the object or line above and exit code 2.
+ExitCode reported(OutputForm form, const std::function<ExitCode()>& command);
+
+}  // namespace crosswalk::recording

@@ -1,0 +1,35 @@
+#include <cstdio>
+#include <exception>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "recorder/commands/commands.h"
+
+namespace crosswalk::recording {
+
+namespace {
+
+ExitCode fail(OutputForm form, std::string_view code, const std::string& message) {
+  if (form == OutputForm::Json) {
+    const nlohmann::ordered_json object = {{"error", code}, {"message", message}};
+    fmt::print("{}\n", object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    fmt::print(stderr, "error ({}): {}\n", code, message);
+  }
+  return ExitCode::UserError;
+}
+
+}  // namespace
+
+ExitCode reported(OutputForm form, const std::function<ExitCode()>& command) {
+  try {
+    return command();
+  } catch (const SignalError& error) {
+    return fail(form, error.code(), error.what());
+  } catch (const UserError& error) {
+    return fail(form, "input", error.what());
+  }
+}
+
+}  // namespace crosswalk::recording

@@ -7,11 +7,11 @@ namespace crosswalk {
 
 namespace {
 
-std::atomic<bool> interrupt_flag{false};
+std::atomic<bool> flag{false};
 static_assert(std::atomic<bool>::is_always_lock_free);  // else not allowed in a signal handler
 
 extern "C" void on_interrupt(int signal_number) {
-  if (interrupt_flag.exchange(true)) {
+  if (flag.exchange(true)) {
     std::signal(signal_number, SIG_DFL);
     std::raise(signal_number);
   }
@@ -27,6 +27,8 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-bool is_interrupted() { return interrupt_flag.load(); }
+bool is_interrupted() { return flag.load(); }
+
+const std::atomic<bool>& interrupt_flag() { return flag; }
 
 }  // namespace crosswalk

@@ -1,0 +1,67 @@
+#include "launcher/handover.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "common/error.h"
+
+namespace crosswalk {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array kHandovers = {
+    Handover{"solve", "fe_node", "run a keyword deck alone"},
+    Handover{"validate", "fe_node", "component tests of the finite-element models"},
+    Handover{"bench", "fe_node", "speed of the solver; `bench coupling`: of an empty window"},
+    Handover{"subject", "mb_node", "show or fill in a subject's measures"},
+    Handover{"study", "mb_node", "many multibody runs over a range of parameters"},
+    Handover{"view", "mb_node", "picture of the pedestrian and the car"},
+    Handover{"rate", "recorder", "rate a run against test curves (CORA, ISO 18571)"},
+    Handover{"injury", "recorder", "injury metrics of a run"},
+    Handover{"analyze", "recorder", "channels and table of a log"},
+    Handover{"compare", "recorder", "two or more runs side by side"},
+    Handover{"report", "recorder", "one HTML page about a run"},
+    Handover{"export", "recorder", "channels in other formats"},
+    Handover{"replay", "recorder", "play a log back to the bus"},
+    Handover{"broker", "coupler", "message broker for runs across networks"},
+};
+
+}  // namespace
+
+std::span<const Handover> handovers() { return kHandovers; }
+
+std::string_view program_for(std::string_view command, const std::vector<std::string>& arguments) {
+  if (command == "bench" && !arguments.empty() && arguments.front() == "coupling") return "coupler";
+  const auto found = std::find_if(kHandovers.begin(), kHandovers.end(),
+                                  [&](const Handover& h) { return h.command == command; });
+  return found == kHandovers.end() ? std::string_view{} : found->program;
+}
+
+fs::path sibling_program(std::string_view name) {
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / name;
+  if (access(program.c_str(), X_OK) != 0)
+    throw UserError(Problem{Place{program.string()}, std::string(name),
+                            "a program beside crosswalk", "none",
+                            "build it, for example by calling ./crosswalk once"});
+  return program;
+}
+
+void hand_over(const fs::path& program, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {program.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  execvp(program.c_str(), argv.data());
+  throw UserError(
+      Problem{Place{program.string()}, "cannot be started", {}, std::strerror(errno), {}});
+}
+
+}  // namespace crosswalk

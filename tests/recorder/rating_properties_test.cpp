@@ -85,8 +85,9 @@ TEST(Iso18571, ScaleSignAndTimeOriginDoNotMatter) {
   const Series x = pulses();
   const Series y = pulses(0.002, 1.1);
   const double R = iso18571(x, y, {}).R;
-  EXPECT_NEAR(iso18571(mapped(x, 3, 0), mapped(y, 3, 0), {}).R, R, 1e-12);
-  EXPECT_NEAR(iso18571(mapped(x, -1, 2), mapped(y, -1, 2), {}).R, R, 1e-12);
+  // Rounding decides near-ties of the warping path, hence 1e-9.
+  EXPECT_NEAR(iso18571(mapped(x, 3, 0), mapped(y, 3, 0), {}).R, R, 1e-9);
+  EXPECT_NEAR(iso18571(mapped(x, -1, 2), mapped(y, -1, 2), {}).R, R, 1e-9);
 }
 
 TEST(Iso18571, DifferentGridsAreAlignedFirst) {

@@ -1,1 +1,120 @@
 #include "fe_node/model.h"
+
+#include <algorithm>
+
+#include "common/error.h"
+
+namespace crosswalk::fe {
+namespace {
+
+/// `width` numbers per corner and lane group: 3 axes of a force or of a moment.
+CornerTable make_corner_table(const Model& model, const std::vector<std::size_t>& offsets,
+                              bool moments_only) {
+  const int node_count = model.mesh.node_count();
+  CornerTable table;
+  table.begin.assign(node_count + 1, 0);
+  auto for_each_corner = [&](auto&& visit) {
+    for (std::size_t b = 0; b < model.blocks.size(); ++b) {
+      const ElementBlock& block = *model.blocks[b];
+      if (moments_only && !block.has_moments()) continue;
+      for (int element = 0; element < block.element_count(); ++element)
+        for (int corner = 0; corner < block.corners(); ++corner) {
+          const int group = element / kLanes, lane = element % kLanes;
+          const std::size_t slot =
+              offsets[b] + static_cast<std::size_t>(group * block.corners() + corner) * 3 * kLanes +
+              lane;
+          visit(block.node(group, corner, lane), slot);
+        }
+    }
+  };
+  for_each_corner([&](int node, std::size_t) { ++table.begin[node + 1]; });
+  for (int n = 0; n < node_count; ++n) table.begin[n + 1] += table.begin[n];
+  table.slot.resize(table.begin.back());
+  std::vector<int> next(table.begin.begin(), table.begin.end() - 1);
+  for_each_corner([&](int node, std::size_t slot) {
+    table.slot[next[node]++] = static_cast<std::uint32_t>(slot);
+  });
+  return table;
+}
+
+void place_offsets(Model& model) {
+  std::size_t force = 0, moment = 0;
+  for (const auto& block : model.blocks) {
+    model.force_offset.push_back(force);
+    model.moment_offset.push_back(moment);
+    const std::size_t size = static_cast<std::size_t>(block->group_count()) * block->corners() * 3 *
+                             kLanes;
+    force += size;
+    if (block->has_moments()) moment += size;
+  }
+  model.force_offset.push_back(force);
+  model.moment_offset.push_back(moment);
+  CW_ASSERT(force < (std::size_t{1} << 32));
+}
+
+void lump_masses(Model& model) {
+  const int node_count = model.mesh.node_count();
+  model.mass.assign(node_count, 0.0);
+  if (!model.point_mass.empty()) model.mass = model.point_mass;
+  model.added_mass.assign(model.mesh.parts.size(), 0.0);
+  const bool has_rotations = std::any_of(model.blocks.begin(), model.blocks.end(),
+                                         [](const auto& b) { return b->has_moments(); });
+  if (has_rotations) model.inertia.assign(node_count, 0.0);
+  for (const auto& block : model.blocks)
+    for (int element = 0; element < block->element_count(); ++element) {
+      model.added_mass[block->part()] += block->added_mass(element);
+      for (int corner = 0; corner < block->corners(); ++corner) {
+        const int node = block->node(element / kLanes, corner, element % kLanes);
+        model.mass[node] += block->corner_mass(element);
+        if (block->has_moments()) model.inertia[node] += block->corner_inertia(element);
+      }
+    }
+}
+
+/// A tied node hands its mass to the nodes it follows.
+void hand_over_tied_masses(Model& model) {
+  for (const TiedNode& tie : model.tied) {
+    for (int i = 0; i < tie.count; ++i)
+      model.mass[tie.master[i]] += tie.weight[i] * model.mass[tie.node];
+    model.mass[tie.node] = 0;
+  }
+}
+
+void finish_body(Model& model, int index) {
+  RigidBody& body = model.bodies[index];
+  Inertia total = body.own;
+  for (int node : body.nodes) {
+    CW_ASSERT(model.body_of_node[node] == -1);  // the model builder merges bodies that share nodes
+    model.body_of_node[node] = index;
+    total = total + Inertia::of_point(model.mass[node], model.mesh.position[node]);
+  }
+  if (body.role == BodyRole::Follower) return;
+  CW_ASSERT(body.role != BodyRole::Free || total.mass > 0);
+  body.origin = total.com;
+  total.com.setZero();
+  body.inertia = total;
+  body.p_BN.clear();
+  for (int node : body.nodes) body.p_BN.push_back(model.mesh.position[node] - body.origin);
+}
+
+}  // namespace
+
+void Model::finish() {
+  CW_ASSERT(mass.empty());
+  place_offsets(*this);
+  corner_forces = make_corner_table(*this, force_offset, false);
+  corner_moments = make_corner_table(*this, moment_offset, true);
+  lump_masses(*this);
+  hand_over_tied_masses(*this);
+  body_of_node.assign(mesh.node_count(), -1);
+  for (int b = 0; b < static_cast<int>(bodies.size()); ++b) finish_body(*this, b);
+}
+
+double Model::total_mass() const {
+  double sum = 0;
+  for (double m : mass) sum += m;
+  for (const RigidBody& body : bodies) sum += body.own.mass;
+  return sum;
+}
+
+}  // namespace crosswalk::fe

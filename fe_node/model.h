@@ -53,6 +53,7 @@ struct Model {
 
   /// Lumps masses, scales mass, builds the corner tables. Call once, last.
   void finish();
+  double total_mass() const;  ///< kg, added mass and rigid parts included
   bool has_rotations() const { return !inertia.empty(); }
 };
 

@@ -27,4 +27,9 @@ struct State {
   Energies energies;
 };
 
+struct Model;
+
+/// Stress-free state with the deck's frame D placed at X_WD and moving with V_WD (of D's origin).
+State initial_state(const Model& model, const Pose& X_WD = {}, const Twist& V_WD = {});
+
 }  // namespace crosswalk::fe

@@ -8,6 +8,7 @@
 // Nodes sit at fixed places in B: x = p_WB + R_WB p_BN.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,15 @@ struct RigidBody {
   BodyRole role = BodyRole::Free;
   std::vector<int> parts;  ///< mesh parts that move with it
   std::vector<int> nodes;
-  std::vector<Vec3> p_BN;  ///< of each node, axes of B
-  Inertia inertia;         ///< about B's origin frame, axes of B; com is zero for a free body
+  /// Of the rigid material alone, in the deck's frame; deformable neighbours' nodal masses come on
+  /// top in Model::finish().
+  Inertia own;
+  std::array<bool, 6> locked{};  ///< translations and rotations along global axes; free bodies
+
+  // Filled by Model::finish(), deck frame.
+  Vec3 origin = Vec3::Zero();  ///< of B; the centre of mass for a free body
+  std::vector<Vec3> p_BN;      ///< of each node, axes of B (those of the deck unless re-based)
+  Inertia inertia;             ///< own and nodal masses, in B
 };
 
 struct BodyState {
@@ -31,5 +39,15 @@ struct BodyState {
   Twist V_WB;                            ///< of the origin, at t - dt/2
   Vec3 angular_momentum = Vec3::Zero();  ///< about the centre of mass, W axes; free bodies only
 };
+
+/// Moves a free body by one step: kick with the wrench about its origin (N, N m), then drift.
+/// The rotation uses the angular velocity at the middle of the drift (implicit midpoint), so the
+/// spatial angular momentum is exactly that of the kicks.
+void move_free_body(const RigidBody& body, const Wrench& wrench, const Vec3& gravity, double kick,
+                    double dt, BodyState& state);
+/// Moves a body by a given twist of its origin.
+void move_with_twist(const Twist& V, double dt, BodyState& state);
+/// R I R^T omega, the angular momentum about the centre of mass.
+Vec3 angular_momentum(const RigidBody& body, const Pose& X_WB, const Vec3& omega);
 
 }  // namespace crosswalk::fe

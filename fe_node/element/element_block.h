@@ -41,6 +41,7 @@ struct BlockSums {
   double stable_step = std::numeric_limits<double>::infinity();  ///< s, unscaled
   int critical_element = -1;  ///< block-local element that sets it
   int inverted_element = -1;  ///< block-local element with J <= 0 or NaN, or -1
+  double inverted_jacobian = 0;
   int failed = 0;             ///< elements that carry nothing any more
 };
 
@@ -79,6 +80,8 @@ class ElementBlock {
   virtual double corner_mass(int element) const = 0;
   /// Lumped rotary inertia of each corner, kg m2; only with moments.
   virtual double corner_inertia(int /*element*/) const { return 0; }
+  /// Share of an element's mass that mass scaling added, kg.
+  virtual double added_mass(int /*element*/) const { return 0; }
   virtual double element_volume(int element) const = 0;
   virtual double density() const = 0;
 

@@ -55,6 +55,21 @@ Tensor<N> velocity_gradient(const SolidStep<N>& step) {
   return product(step.F_rate, inverse(middle, determinant(middle)));
 }
 
+/// E_{n+1} - E_n = dt sym(F_middle^T F_rate), exact for the step's straight path.
+template <class N>
+Symmetric<N> green_lagrange_increment(const SolidStep<N>& step) {
+  Tensor<N> M;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) M(i, j) = step.F(i, j) - 0.5 * step.dt * step.F_rate(i, j);
+  const Tensor<N>& R = step.F_rate;
+  const double half = 0.5 * step.dt;
+  auto entry = [&](int i, int j) -> N {
+    return half * (M(0, i) * R(0, j) + M(1, i) * R(1, j) + M(2, i) * R(2, j) + M(0, j) * R(0, i) +
+                   M(1, j) * R(1, i) + M(2, j) * R(2, i));
+  };
+  return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)};
+}
+
 /// Rate of deformation, the symmetric part of L.
 template <class N>
 Symmetric<N> rate_of_deformation(const Tensor<N>& L) {

@@ -79,6 +79,22 @@ Symmetric<N> right_cauchy_green(const Tensor<N>& F) {
   return {column(0, 0), column(1, 1), column(2, 2), column(0, 1), column(1, 2), column(2, 0)};
 }
 
+/// C^-1 = F^-1 F^-T from F^-1.
+template <class N>
+Symmetric<N> right_cauchy_green_inverse(const Tensor<N>& F_inverse) {
+  auto row = [&F_inverse](int i, int j) -> N {
+    return F_inverse(i, 0) * F_inverse(j, 0) + F_inverse(i, 1) * F_inverse(j, 1) +
+           F_inverse(i, 2) * F_inverse(j, 2);
+  };
+  return {row(0, 0), row(1, 1), row(2, 2), row(0, 1), row(1, 2), row(2, 0)};
+}
+
+template <class N>
+Symmetric<N> zero() {
+  const N o = constant<N>(0);
+  return {o, o, o, o, o, o};
+}
+
 /// A B
 template <class N>
 Tensor<N> product(const Tensor<N>& a, const Tensor<N>& b) {

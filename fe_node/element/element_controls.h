@@ -1,0 +1,22 @@
+// Numerical controls of a block: hourglass resistance, bulk viscosity, mass scaling.
+#pragma once
+
+namespace crosswalk::fe {
+
+enum class HourglassForm {
+  None,
+  Viscous,   ///< Flanagan-Belytschko viscous: a = q rho V^(2/3) c / 4 [hallquist2006, 3.2]
+  Stiffness  ///< Flanagan-Belytschko stiffness on the SHEAR modulus: k = q mu V (b_iI b_iI)
+};
+
+struct ElementControls {
+  HourglassForm hourglass = HourglassForm::Stiffness;
+  double hourglass_coefficient = 0.05;
+  double quadratic_bulk = 1.5;  ///< [hallquist2006, 3.5]
+  double linear_bulk = 0.06;
+  /// Elements whose own step is smaller get mass added until it is not; 0: no mass scaling. s,
+  /// before the safety factor of the solver.
+  double minimum_step = 0;
+};
+
+}  // namespace crosswalk::fe

@@ -1,0 +1,160 @@
+#include "fe_node/element/hex8.h"
+
+#include <cmath>
+
+#include "common/error.h"
+#include "fe_node/element/hex8_block.h"
+
+namespace crosswalk::fe {
+namespace {
+
+constexpr double kXi[8] = {-1, 1, 1, -1, -1, 1, 1, -1};
+constexpr double kEta[8] = {-1, -1, 1, 1, -1, -1, 1, 1};
+constexpr double kZeta[8] = {-1, -1, -1, -1, 1, 1, 1, 1};
+
+/// Undeformed shape of one element, written into one lane.
+void set_reference(const Vec3 (&x)[8], double density, int lane, HexReference<Lanes>& ref) {
+  Vec3 B[8];
+  hex8_volume_gradient(x, B);
+  const double volume = hex8_volume(x);
+  Mat3 metric = Mat3::Zero();
+  for (const Vec3& b : B) metric += b * b.transpose() / (volume * volume);
+  ref.volume[lane] = volume;
+  ref.inverse_volume[lane] = 1.0 / volume;
+  ref.length[lane] = std::cbrt(volume);
+  ref.density[lane] = density;
+  for (int node = 0; node < 8; ++node)
+    for (int i = 0; i < 3; ++i) ref.gradient[node][i][lane] = B[node][i];
+  const double* signs[4][2] = {{kEta, kZeta}, {kXi, kZeta}, {kXi, kEta}, {nullptr, nullptr}};
+  for (int a = 0; a < 4; ++a) {
+    Vec3 sum = Vec3::Zero();
+    for (int node = 0; node < 8; ++node)
+      sum += (a < 3 ? signs[a][0][node] * signs[a][1][node]
+                    : kXi[node] * kEta[node] * kZeta[node]) *
+             x[node];
+    for (int i = 0; i < 3; ++i) ref.hourglass[a][i][lane] = sum[i];
+  }
+  const double entries[6] = {metric(0, 0), metric(1, 1), metric(2, 2),
+                             metric(0, 1), metric(1, 2), metric(2, 0)};
+  for (int k = 0; k < 6; ++k) ref.metric[k][lane] = entries[k];
+}
+
+}  // namespace
+
+// The volume is the sum of six times the triple products of a trilinear brick; its gradient is the
+// closed form of [flanagan1981, eq. 16], whose other entries follow by cyclic node permutations.
+void hex8_volume_gradient(const Vec3 (&x)[8], Vec3 (&gradient)[8]) {
+  constexpr int kPermutation[8][8] = {
+      {0, 1, 2, 3, 4, 5, 6, 7}, {1, 2, 3, 0, 5, 6, 7, 4}, {2, 3, 0, 1, 6, 7, 4, 5},
+      {3, 0, 1, 2, 7, 4, 5, 6}, {4, 7, 6, 5, 0, 3, 2, 1}, {5, 4, 7, 6, 1, 0, 3, 2},
+      {6, 5, 4, 7, 2, 1, 0, 3}, {7, 6, 5, 4, 3, 2, 1, 0}};
+  for (int node = 0; node < 8; ++node) {
+    const int* p = kPermutation[node];
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      auto y = [&](int n) { return x[p[n]][j]; };
+      auto z = [&](int n) { return x[p[n]][k]; };
+      gradient[node][i] =
+          (y(1) * ((z(5) - z(2)) - (z(3) - z(4))) + y(2) * (z(1) - z(3)) +
+           y(3) * ((z(2) - z(7)) - (z(4) - z(1))) + y(4) * ((z(7) - z(5)) - (z(1) - z(3))) +
+           y(5) * (z(4) - z(1)) + y(7) * (z(3) - z(4))) /
+          12.0;
+    }
+  }
+}
+
+double hex8_volume(const Vec3 (&x)[8]) {
+  Vec3 gradient[8];
+  hex8_volume_gradient(x, gradient);
+  double volume = 0;
+  for (int node = 0; node < 8; ++node) volume += x[node].x() * gradient[node].x();
+  return volume;
+}
+
+HexShapes make_hex_shapes(const ElementBlock& block, const Mesh& mesh, double density,
+                          double bulk_modulus, double shear_modulus, double minimum_step) {
+  HexShapes shapes;
+  shapes.groups.resize(block.group_count());
+  shapes.added_density.resize(block.element_count());
+  Tensor<Lanes> identity;
+  for (int k = 0; k < 9; ++k) identity(k / 3, k % 3).setConstant(k % 4 == 0 ? 1.0 : 0.0);
+  for (int group = 0; group < block.group_count(); ++group) {
+    HexReference<Lanes>& ref = shapes.groups[group];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      Vec3 x[8];
+      for (int node = 0; node < 8; ++node) x[node] = mesh.position[block.node(group, node, lane)];
+      set_reference(x, density, lane, ref);
+      CW_ASSERT(ref.volume[lane] > 0);  // the model builder refuses such elements with their place
+    }
+    const Lanes squared =
+        hex_stable_step_squared(ref, identity, constant<Lanes>(1), constant<Lanes>(bulk_modulus),
+                                constant<Lanes>(shear_modulus));
+    const Lanes lacking = larger(Lanes(minimum_step * minimum_step / squared), constant<Lanes>(1));
+    ref.density *= lacking;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int element = group * kLanes + lane;
+      if (element < block.element_count())
+        shapes.added_density[element] = ref.density[lane] - density;
+    }
+  }
+  return shapes;
+}
+
+HexNodes<Lanes> load_hex_nodes(std::span<const NodeRecord> nodes, const int* index) {
+  HexNodes<Lanes> out;
+  for (int node = 0; node < 8; ++node) {
+    const NodeLanes corner = load_nodes(nodes, index + node * kLanes);
+    for (int i = 0; i < 3; ++i) {
+      out.x[node][i] = corner.x[i];
+      out.v[node][i] = corner.v[i];
+    }
+  }
+  return out;
+}
+
+void add_to_sums(const HexAnswer<Lanes>& answer, const Lanes& mask, const StepContext& step,
+                 int first_element, int element_count, BlockSums& sums) {
+  const Lanes live = mask * answer.alive;
+  sums.internal += (answer.energy * mask).sum();
+  sums.hourglass += (answer.hourglass_stored * live).sum();
+  sums.hourglass_dissipated += step.dt * (answer.hourglass_power * live).sum();
+  sums.viscous_dissipated += step.dt * (answer.viscous_power * live).sum();
+  const Lanes J = (live > 0).select(answer.J, constant<Lanes>(1));
+  if (!(J > 0).all() && sums.inverted_element < 0) {
+    for (int lane = kLanes - 1; lane >= 0; --lane)
+      if (!(J[lane] > 0)) {
+        sums.inverted_element = std::min(first_element + lane, element_count - 1);
+        sums.inverted_jacobian = J[lane];
+      }
+  }
+  if (step.wants_stable_step) {
+    const Lanes squared = (live > 0).select(
+        answer.stable_step_squared, constant<Lanes>(std::numeric_limits<double>::infinity()));
+    int lane = 0;
+    const double smallest = std::sqrt(squared.minCoeff(&lane));
+    if (smallest < sums.stable_step) {
+      sums.stable_step = smallest;
+      sums.critical_element = first_element + lane;
+    }
+  }
+}
+
+void store_corner_forces(const HexAnswer<Lanes>& answer, double* corner_forces) {
+  for (int node = 0; node < 8; ++node)
+    for (int i = 0; i < 3; ++i)
+      Eigen::Map<Lanes, Eigen::Aligned64>(corner_forces + (node * 3 + i) * kLanes) =
+          answer.force[node][i];
+}
+
+std::unique_ptr<ElementBlock> make_hex8_block(const Mesh& mesh, int part,
+                                              std::vector<int> elements, const SolidLaw& law,
+                                              const ElementControls& controls) {
+  return std::visit(
+      [&](const auto& l) -> std::unique_ptr<ElementBlock> {
+        using Law = std::decay_t<decltype(l)>;
+        return std::make_unique<Hex8Block<Law>>(mesh, part, std::move(elements), l, controls);
+      },
+      law);
+}
+
+}  // namespace crosswalk::fe

@@ -1,0 +1,111 @@
+// The block class behind make_hex8_block(), one instance per material law.
+#pragma once
+
+#include "fe_node/element/hex8.h"
+#include "fe_node/element/hex8_kernel.h"
+
+namespace crosswalk::fe {
+
+/// Law-independent part: the undeformed shapes and added masses of a block.
+struct HexShapes {
+  std::vector<HexReference<Lanes>, Eigen::aligned_allocator<HexReference<Lanes>>> groups;
+  std::vector<double> added_density;  ///< kg/m3 per element, by mass scaling
+};
+HexShapes make_hex_shapes(const ElementBlock& block, const Mesh& mesh, double density,
+                          double bulk_modulus, double shear_modulus, double minimum_step);
+HexNodes<Lanes> load_hex_nodes(std::span<const NodeRecord> nodes, const int* index);
+/// Sums of one group; padded lanes have mask 0.
+void add_to_sums(const HexAnswer<Lanes>& answer, const Lanes& mask, const StepContext& step,
+                 int first_element, int element_count, BlockSums& sums);
+void store_corner_forces(const HexAnswer<Lanes>& answer, double* corner_forces);
+
+template <class Law>
+class Hex8Block final : public ElementBlock {
+ public:
+  Hex8Block(const Mesh& mesh, int part, std::vector<int> elements, const Law& law,
+            const ElementControls& controls)
+      : ElementBlock(mesh, ElementKind::Hex8, part, std::move(elements)),
+        law_(law),
+        controls_(controls),
+        shapes_(make_hex_shapes(*this, mesh, law.density, law.bulk_modulus(), law.shear_modulus(),
+                                controls.minimum_step)) {}
+
+  int history_per_group() const override { return law_.history_size() * kLanes; }
+
+  void initialise(std::span<double> history) const override {
+    for (int group = 0; group < group_count(); ++group)
+      law_.initialise(group_history(history, group));
+  }
+
+  double corner_mass(int element) const override {
+    return (law_.density + shapes_.added_density[element]) * element_volume(element) / 8.0;
+  }
+  double added_mass(int element) const override {
+    return shapes_.added_density[element] * element_volume(element);
+  }
+  double element_volume(int element) const override {
+    return shapes_.groups[element / kLanes].volume[element % kLanes];
+  }
+  double density() const override { return law_.density; }
+
+  void forces(const StepContext& step, std::span<double> history, std::span<double> corner_forces,
+              std::span<double> /*corner_moments*/, int first, int last,
+              BlockSums& sums) const override {
+    for (int group = first; group < last; ++group) {
+      const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));
+      const HexAnswer<Lanes> answer = hex8_forces(shapes_.groups[group], nodes, law_, controls_,
+                                                  step.dt, group_history(history, group));
+      store_corner_forces(answer, corner_forces.data() + std::size_t{24} * kLanes * group);
+      add_to_sums(answer, lane_mask(group), step, group * kLanes, element_count(), sums);
+    }
+  }
+
+  double initial_stable_step(int element) const override {
+    const HexReference<Lanes>& ref = shapes_.groups[element / kLanes];
+    Tensor<Lanes> identity;
+    for (int k = 0; k < 9; ++k) identity(k / 3, k % 3).setConstant(k % 4 == 0 ? 1.0 : 0.0);
+    const Lanes squared = hex_stable_step_squared(
+        ref, identity, constant<Lanes>(1), constant<Lanes>(law_.bulk_modulus()),
+        constant<Lanes>(law_.shear_modulus()));
+    return std::sqrt(squared[element % kLanes]);
+  }
+
+  ElementSample sample(const StepContext& step, std::span<const double> history,
+                       int element) const override {
+    const int group = element / kLanes, lane = element % kLanes;
+    const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));
+    const HexReference<Lanes>& ref = shapes_.groups[group];
+    std::vector<Lanes, Eigen::aligned_allocator<Lanes>> copy(law_.history_size() + 1);
+    std::copy_n(history.data() + std::size_t(history_per_group()) * group, history_per_group(),
+                copy.front().data());
+    SolidStep<Lanes> still;
+    accumulate_gradient(ref, nodes.x, still.F);
+    accumulate_gradient(ref, nodes.v, still.F_rate);
+    still.J = determinant(still.F);
+    still.F_inverse = inverse(still.F, still.J);
+    const SolidAnswer<Lanes> material = law_.update(still, copy.data());
+    const Symmetric<Lanes> sigma = cauchy_stress(material.P, still.F, still.J);
+
+    ElementSample out;
+    out.volume = ref.volume[lane];
+    out.energy = material.energy[lane] * out.volume;
+    out.is_alive = material.alive[lane] > 0;
+    for (int node = 0; node < 8; ++node)
+      for (int i = 0; i < 3; ++i) out.centre[i] += 0.125 * nodes.x[node][i][lane];
+    for (int k = 0; k < 9; ++k) out.deformation(k / 3, k % 3) = still.F(k / 3, k % 3)[lane];
+    out.stress << sigma.xx[lane], sigma.xy[lane], sigma.zx[lane], sigma.xy[lane], sigma.yy[lane],
+        sigma.yz[lane], sigma.zx[lane], sigma.yz[lane], sigma.zz[lane];
+    return out;
+  }
+
+ private:
+  Lanes* group_history(std::span<double> history, int group) const {
+    return reinterpret_cast<Lanes*>(history.data() + std::size_t(history_per_group()) * group);
+  }
+
+  Law law_;
+  ElementControls controls_;
+  HexShapes shapes_;
+};
+
+}  // namespace crosswalk::fe

@@ -1,0 +1,16 @@
+#include "fe_node/material/viscoelastic.h"
+
+namespace crosswalk::fe {
+
+Viscoelastic Viscoelastic::from_single_term(double density, double bulk_modulus,
+                                            double shear_short, double shear_long, double decay) {
+  Viscoelastic law;
+  law.density = density;
+  law.bulk = bulk_modulus;
+  law.long_term_modulus = shear_long;
+  law.terms[0] = {shear_short - shear_long, decay};
+  law.term_count = 1;
+  return law;
+}
+
+}  // namespace crosswalk::fe

@@ -1,0 +1,362 @@
+#include "fe_node/solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/error.h"
+
+namespace crosswalk::fe {
+namespace {
+
+constexpr int kGroupsPerChunk = 8;
+constexpr int kNodesPerChunk = 512;
+
+int node_chunk_count(const Model& model) {
+  return (model.mesh.node_count() + kNodesPerChunk - 1) / kNodesPerChunk;
+}
+
+void element_forces(const Model& model, State& state, Scratch& scratch) {
+  const StepContext context{state.nodes, state.spin, state.time, state.last_dt, true};
+  const int count = static_cast<int>(scratch.chunks.size());
+#pragma omp parallel for schedule(static) num_threads(scratch.threads)
+  for (int c = 0; c < count; ++c) {
+    const Scratch::Chunk& chunk = scratch.chunks[c];
+    const std::size_t b = chunk.block;
+    scratch.chunk_sums[c] = BlockSums{};
+    model.blocks[b]->forces(
+        context, state.history[b],
+        {scratch.corner_forces.data() + model.force_offset[b],
+         scratch.corner_forces.data() + model.force_offset[b + 1]},
+        {scratch.corner_moments.data() + model.moment_offset[b],
+         scratch.corner_moments.data() + model.moment_offset[b + 1]},
+        chunk.first, chunk.last, scratch.chunk_sums[c]);
+  }
+}
+
+void add(const BlockSums& part, BlockSums& sum) {
+  sum.internal += part.internal;
+  sum.hourglass += part.hourglass;
+  sum.hourglass_dissipated += part.hourglass_dissipated;
+  sum.viscous_dissipated += part.viscous_dissipated;
+  sum.failed += part.failed;
+  if (part.stable_step < sum.stable_step) {
+    sum.stable_step = part.stable_step;
+    sum.critical_element = part.critical_element;
+  }
+  if (part.inverted_element >= 0 && sum.inverted_element < 0) {
+    sum.inverted_element = part.inverted_element;
+    sum.inverted_jacobian = part.inverted_jacobian;
+  }
+}
+
+/// Adds the chunks up in their fixed order and books the energies.
+StepReport sum_blocks(const Model& model, State& state, Scratch& scratch) {
+  std::fill(scratch.block_sums.begin(), scratch.block_sums.end(), BlockSums{});
+  for (std::size_t c = 0; c < scratch.chunks.size(); ++c)
+    add(scratch.chunk_sums[c], scratch.block_sums[scratch.chunks[c].block]);
+
+  StepReport report;
+  report.stable_step = std::numeric_limits<double>::infinity();
+  Energies& e = state.energies;
+  e.internal = e.hourglass_stored = 0;
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
+    const BlockSums& sums = scratch.block_sums[b];
+    if (sums.inverted_element >= 0)
+      throw NumericalError(state.time,
+                           fmt::format("{} has Jacobian {:.3g}",
+                                       describe_element(model, b, sums.inverted_element),
+                                       sums.inverted_jacobian));
+    e.internal += sums.internal;
+    e.hourglass_stored += sums.hourglass;
+    e.hourglass_dissipated += sums.hourglass_dissipated;
+    e.viscous += sums.viscous_dissipated;
+    if (sums.stable_step < report.stable_step) {
+      report.stable_step = sums.stable_step;
+      report.critical_block = b;
+      report.critical_element = sums.critical_element;
+    }
+  }
+  return report;
+}
+
+void contact_forces(const Model& model, State& state, Scratch& scratch, StepReport& report) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    scratch.body_views[b] = {state.bodies[b].X_WB, state.bodies[b].V_WB};
+    scratch.contact_loads.on_body[b] = Wrench{};
+  }
+  scratch.contact_loads.nodal.clear();
+  const ContactContext context{state.nodes, model.mass,    scratch.body_views,
+                               state.time,  state.last_dt, state.step};
+  state.energies.contact_stored = 0;
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    if (state.step == 0) model.contacts[c]->initialise(state.contacts[c], context);
+    const ContactReport r =
+        model.contacts[c]->forces(context, state.contacts[c], scratch.contact_loads);
+    scratch.contact_reports[c] = r;
+    state.energies.contact_stored += r.stored;
+    state.energies.contact_dissipated += r.friction_dissipated + r.damping_dissipated;
+    if (r.stable_step < report.stable_step) {
+      report.stable_step = r.stable_step;
+      report.critical_block = report.critical_element = -1;
+    }
+  }
+  for (const NodalLoad& load : scratch.contact_loads.nodal)
+    scratch.applied[load.node] += load.force;
+}
+
+void nodal_loads(const Model& model, State& state, Scratch& scratch) {
+  for (const NodalForce& load : model.nodal_forces) {
+    const Vec3 force = load.scale * load.curve.value(state.time) * load.direction;
+    for (int n : load.nodes) {
+      scratch.applied[n] += force;
+      state.energies.external_work += state.last_dt * force.dot(state.nodes[n].velocity());
+    }
+  }
+}
+
+Vec3 gather(const CornerTable& table, const double* corners, int node) {
+  Vec3 sum = Vec3::Zero();
+  for (int k = table.begin[node]; k < table.begin[node + 1]; ++k) {
+    const double* corner = corners + table.slot[k];
+    sum += Vec3(corner[0], corner[kLanes], corner[2 * kLanes]);
+  }
+  return sum;
+}
+
+/// Every node adds its corners in the order of the table: the same bits for any number of threads.
+void gather_nodal_forces(const Model& model, Scratch& scratch) {
+  const int node_count = model.mesh.node_count();
+#pragma omp parallel for schedule(static) num_threads(scratch.threads)
+  for (int n = 0; n < node_count; ++n) {
+    scratch.force[n] =
+        scratch.applied[n] + gather(model.corner_forces, scratch.corner_forces.data(), n);
+    scratch.applied[n].setZero();
+    if (model.has_rotations())
+      scratch.moment[n] = gather(model.corner_moments, scratch.corner_moments.data(), n);
+  }
+  for (const TiedNode& tie : model.tied)
+    for (int i = 0; i < tie.count; ++i)
+      scratch.force[tie.master[i]] += tie.weight[i] * scratch.force[tie.node];
+}
+
+void sum_body_wrenches(const Model& model, const State& state, Scratch& scratch) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    Wrench wrench = scratch.contact_loads.on_body[b];
+    for (int n : model.bodies[b].nodes) {
+      const Vec3& f = scratch.force[n];
+      wrench.f += f;
+      wrench.tau += (state.nodes[n].position() - state.bodies[b].X_WB.p).cross(f);
+      if (model.has_rotations()) wrench.tau += scratch.moment[n];
+    }
+    scratch.body_wrench[b] = wrench;
+  }
+}
+
+/// Kick and drift of the free nodes; constrained ones are put right afterwards.
+void integrate(const Model& model, State& state, Scratch& scratch, double kick, double dt) {
+  const Vec3 gravity = model.settings.gravity;
+  const double damping = model.settings.mass_damping;
+  const int chunk_count = node_chunk_count(model);
+#pragma omp parallel for schedule(static) num_threads(scratch.threads)
+  for (int c = 0; c < chunk_count; ++c) {
+    double kinetic = 0, gravity_work = 0, damped = 0;
+    const int last = std::min((c + 1) * kNodesPerChunk, model.mesh.node_count());
+    for (int n = c * kNodesPerChunk; n < last; ++n) {
+      NodeRecord& node = state.nodes[n];
+      const Vec3 before = node.velocity();
+      Vec3 after = before;
+      if (node.inverse_mass > 0) {
+        after += kick * (scratch.force[n] * node.inverse_mass + gravity - damping * before);
+        kinetic += 0.5 * model.mass[n] * before.dot(after);
+        gravity_work += 0.5 * kick * model.mass[n] * gravity.dot(before + after);
+        damped += 0.5 * kick * damping * model.mass[n] * before.dot(before + after);
+        node.set_velocity(after);
+        node.set_position(node.position() + dt * after);
+      }
+      if (model.has_rotations() && model.inertia[n] > 0) {
+        const Vec3 spin = state.spin[n];
+        state.spin[n] += kick * (scratch.moment[n] / model.inertia[n] - damping * spin);
+        kinetic += 0.5 * model.inertia[n] * spin.dot(state.spin[n]);
+      }
+    }
+    scratch.node_sums[c] = {kinetic, gravity_work, damped};
+  }
+  state.energies.kinetic = 0;
+  for (const auto& [kinetic, gravity_work, damped] : scratch.node_sums) {
+    state.energies.kinetic += kinetic;
+    state.energies.external_work += gravity_work;
+    state.energies.damping += damped;
+  }
+}
+
+double guided_velocity(const GuidedNodes& guide, double time, double dt, double before) {
+  switch (guide.kind) {
+    case MotionKind::Velocity: return guide.scale * guide.curve.value(time + 0.5 * dt);
+    case MotionKind::Acceleration: return before + guide.scale * guide.curve.value(time) * dt;
+    case MotionKind::Displacement:
+      return guide.scale * (guide.curve.value(time + dt) - guide.curve.value(time)) / dt;
+  }
+  return 0;
+}
+
+void remember_constrained(const Model& model, const State& state, Scratch& scratch) {
+  for (std::size_t i = 0; i < model.fixed.size(); ++i)
+    scratch.held[i] = state.nodes[model.fixed[i].node].position();
+  std::size_t k = 0;
+  for (const GuidedNodes& guide : model.guided)
+    for (int n : guide.nodes) scratch.guided_velocity[k++] = state.nodes[n].velocity();
+}
+
+void constrain_nodes(const Model& model, State& state, Scratch& scratch, double dt) {
+  for (std::size_t i = 0; i < model.fixed.size(); ++i) {
+    const FixedNode& fixed = model.fixed[i];
+    NodeRecord& node = state.nodes[fixed.node];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (fixed.translation[axis]) {
+        node.v[axis] = 0;
+        node.x[axis] = scratch.held[i][axis];
+      }
+      if (fixed.rotation[axis] && model.has_rotations()) state.spin[fixed.node][axis] = 0;
+    }
+  }
+  std::size_t k = 0;
+  for (const GuidedNodes& guide : model.guided)
+    for (int n : guide.nodes) {
+      NodeRecord& node = state.nodes[n];
+      const double before = scratch.guided_velocity[k++].dot(guide.direction);
+      const double wanted = guided_velocity(guide, state.time, dt, before);
+      const double change = wanted - node.velocity().dot(guide.direction);
+      node.set_velocity(node.velocity() + change * guide.direction);
+      node.set_position(node.position() + dt * change * guide.direction);
+      state.energies.external_work += 0.5 * model.mass[n] * change * (before + wanted);
+    }
+}
+
+void move_nodes_of(const RigidBody& body, const BodyState& moved, double dt, State& state) {
+  const Mat3 R = moved.X_WB.R();
+  for (std::size_t i = 0; i < body.nodes.size(); ++i) {
+    NodeRecord& node = state.nodes[body.nodes[i]];
+    const Vec3 x = moved.X_WB.p + R * body.p_BN[i];
+    node.set_velocity((x - node.position()) / dt);
+    node.set_position(x);
+    if (!state.spin.empty()) state.spin[body.nodes[i]] = moved.V_WB.w;
+  }
+}
+
+void move_bodies(const Model& model, State& state, Scratch& scratch, double kick, double dt) {
+  const Vec3& gravity = model.settings.gravity;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const RigidBody& body = model.bodies[b];
+    BodyState& moved = state.bodies[b];
+    const Twist before = moved.V_WB;
+    if (body.role == BodyRole::Free) {
+      const Vec3 momentum = moved.angular_momentum;
+      move_free_body(body, scratch.body_wrench[b], gravity, kick, dt, moved);
+      state.energies.kinetic += 0.5 * body.inertia.mass * before.v.dot(moved.V_WB.v) +
+                                0.25 * (momentum + moved.angular_momentum).dot(moved.V_WB.w);
+      state.energies.external_work +=
+          0.5 * kick * body.inertia.mass * gravity.dot(before.v + moved.V_WB.v);
+    } else {
+      move_with_twist(scratch.body_command[b], dt, moved);
+      const Twist mean{0.5 * (before.v + moved.V_WB.v), 0.5 * (before.w + moved.V_WB.w)};
+      state.energies.interface_work -= kick * scratch.body_wrench[b].power(mean);
+    }
+    move_nodes_of(body, moved, dt, state);
+  }
+}
+
+void move_tied_nodes(const Model& model, State& state, double dt) {
+  for (const TiedNode& tie : model.tied) {
+    Vec3 v = Vec3::Zero();
+    for (int i = 0; i < tie.count; ++i) v += tie.weight[i] * state.nodes[tie.master[i]].velocity();
+    NodeRecord& node = state.nodes[tie.node];
+    node.set_velocity(v);
+    node.set_position(node.position() + dt * v);
+  }
+}
+
+}  // namespace
+
+Scratch::Scratch(const Model& model, int thread_count) : threads(thread_count) {
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
+    for (int first = 0; first < model.blocks[b]->group_count(); first += kGroupsPerChunk)
+      chunks.push_back(
+          {b, first, std::min(first + kGroupsPerChunk, model.blocks[b]->group_count())});
+  chunk_sums.resize(chunks.size());
+  block_sums.resize(model.blocks.size());
+  corner_forces.resize(model.force_offset.back());
+  corner_moments.resize(model.moment_offset.back());
+  const int node_count = model.mesh.node_count();
+  applied.assign(node_count, Vec3::Zero());
+  force.assign(node_count, Vec3::Zero());
+  moment.assign(model.has_rotations() ? node_count : 0, Vec3::Zero());
+  int loads = 0;
+  for (const auto& contact : model.contacts) loads += contact->max_nodal_loads();
+  contact_loads.nodal.reserve(loads);
+  contact_loads.on_body.resize(model.bodies.size());
+  contact_reports.resize(model.contacts.size());
+  body_views.resize(model.bodies.size());
+  body_wrench.resize(model.bodies.size());
+  body_command.resize(model.bodies.size());
+  held.resize(model.fixed.size());
+  std::size_t guided = 0;
+  for (const GuidedNodes& guide : model.guided) guided += guide.nodes.size();
+  guided_velocity.resize(guided);
+  node_sums.resize(node_chunk_count(model));
+}
+
+StepReport compute_forces(const Model& model, State& state, Scratch& scratch) {
+  element_forces(model, state, scratch);
+  StepReport report = sum_blocks(model, state, scratch);
+  contact_forces(model, state, scratch, report);
+  nodal_loads(model, state, scratch);
+  gather_nodal_forces(model, scratch);
+  sum_body_wrenches(model, state, scratch);
+  return report;
+}
+
+void move(const Model& model, State& state, Scratch& scratch, double dt) {
+  // Velocities sit at mid-steps: the kick spans half of the last step and half of this one. The very
+  // first one is a half kick, from the velocities at t = 0.
+  const double kick = 0.5 * (state.last_dt + dt);
+  remember_constrained(model, state, scratch);
+  integrate(model, state, scratch, kick, dt);
+  constrain_nodes(model, state, scratch, dt);
+  move_bodies(model, state, scratch, kick, dt);
+  move_tied_nodes(model, state, dt);
+  if (state.step == 0) {
+    state.energies.initial = 0;
+    state.energies.initial = state.energies.total();
+  }
+  state.time += dt;
+  state.last_dt = dt;
+  ++state.step;
+}
+
+StepReport advance_step(const Model& model, State& state, Scratch& scratch, double dt) {
+  const StepReport report = compute_forces(model, state, scratch);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    scratch.body_command[b] = state.bodies[b].V_WB;
+  move(model, state, scratch, dt);
+  return report;
+}
+
+double initial_stable_step(const Model& model) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& block : model.blocks)
+    for (int element = 0; element < block->element_count(); ++element)
+      smallest = std::min(smallest, block->initial_stable_step(element));
+  return smallest;
+}
+
+std::string describe_element(const Model& model, int block, int element) {
+  const ElementBlock& b = *model.blocks[block];
+  const MeshPart& part = model.mesh.parts[b.part()];
+  const DeckId id = model.mesh.table(b.kind()).id[b.mesh_element(element)];
+  return fmt::format("element {} (part {} '{}', {})", id.value, part.id.value, part.name,
+                     name(b.kind()));
+}
+
+}  // namespace crosswalk::fe

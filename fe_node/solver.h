@@ -1,0 +1,56 @@
+// The explicit central-difference (leap-frog) step: positions at t, velocities at t - dt/2
+// [belytschko2014, 6.2]. A step is a visible list; nothing in it allocates.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fe_node/model.h"
+#include "fe_node/state.h"
+
+namespace crosswalk::fe {
+
+struct StepReport {
+  double stable_step = 0;     ///< s, smallest over elements and contacts, unscaled
+  int critical_block = -1;    ///< block and block-local element that set it; -1: a contact
+  int critical_element = -1;
+};
+
+/// Working memory of the solver; holds nothing that a restart needs.
+struct Scratch {
+  Scratch(const Model& model, int threads);
+
+  struct Chunk {
+    int block = 0, first = 0, last = 0;  ///< lane groups
+  };
+  int threads = 1;
+  std::vector<Chunk> chunks;
+  std::vector<BlockSums> chunk_sums;
+  std::vector<BlockSums> block_sums;
+  LaneVector corner_forces, corner_moments;
+  std::vector<Vec3> applied;        ///< N, contact and loads on nodes of this step
+  std::vector<Vec3> force, moment;  ///< N, N m, on nodes
+  ContactLoads contact_loads;
+  std::vector<ContactReport> contact_reports;
+  std::vector<BodyMotionView> body_views;
+  std::vector<Wrench> body_wrench;    ///< on each body about its origin, elements and contacts
+  std::vector<Twist> body_command;    ///< next twist of driven bodies; see move()
+  std::vector<Vec3> held;             ///< positions of fixed nodes before the move
+  std::vector<Vec3> guided_velocity;  ///< of guided nodes before the move
+  std::vector<std::array<double, 3>> node_sums;
+};
+
+/// Forces at the present positions and the energies that go with them. Throws NumericalError when an
+/// element is inverted or a force is not a number.
+StepReport compute_forces(const Model& model, State& state, Scratch& scratch);
+/// Kick and drift by dt with those forces. Driven bodies take scratch.body_command.
+void move(const Model& model, State& state, Scratch& scratch, double dt);
+/// Both, with driven bodies keeping their twist.
+StepReport advance_step(const Model& model, State& state, Scratch& scratch, double dt);
+
+/// The stable step at the start, s, unscaled.
+double initial_stable_step(const Model& model);
+/// "element 10457 (part 88 'cerebrum', hex8)".
+std::string describe_element(const Model& model, int block, int element);
+
+}  // namespace crosswalk::fe

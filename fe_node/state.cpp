@@ -1,0 +1,45 @@
+#include "fe_node/state.h"
+
+#include "fe_node/model.h"
+
+namespace crosswalk::fe {
+namespace {
+
+bool moves_freely(const Model& model, int node) {
+  return model.body_of_node[node] < 0 && model.mass[node] > 0;
+}
+
+BodyState initial_body(const RigidBody& body, const Pose& X_WD, const Twist& V_WD) {
+  BodyState state;
+  state.X_WB = X_WD * Pose{Quat::Identity(), body.origin};
+  state.V_WB = V_WD.shifted(X_WD.q * body.origin);
+  state.angular_momentum = angular_momentum(body, state.X_WB, state.V_WB.w);
+  return state;
+}
+
+}  // namespace
+
+State initial_state(const Model& model, const Pose& X_WD, const Twist& V_WD) {
+  State state;
+  const int node_count = model.mesh.node_count();
+  state.nodes.resize(node_count);
+  if (model.has_rotations()) state.spin.assign(node_count, V_WD.w);
+  for (int n = 0; n < node_count; ++n) {
+    const Vec3& p_DN = model.mesh.position[n];
+    state.nodes[n].set_position(X_WD * p_DN);
+    state.nodes[n].set_velocity(V_WD.shifted(X_WD.q * p_DN).v);
+    state.nodes[n].inverse_mass = moves_freely(model, n) ? 1.0 / model.mass[n] : 0.0;
+  }
+  for (const StartVelocity& start : model.start_velocities)
+    for (int n : start.nodes) state.nodes[n].set_velocity(X_WD.q * start.velocity);
+  for (const RigidBody& body : model.bodies) state.bodies.push_back(initial_body(body, X_WD, V_WD));
+  for (const auto& block : model.blocks) {
+    state.history.emplace_back(
+        static_cast<std::size_t>(block->history_per_group()) * block->group_count(), 0.0);
+    block->initialise(state.history.back());
+  }
+  state.contacts.resize(model.contacts.size());
+  return state;
+}
+
+}  // namespace crosswalk::fe

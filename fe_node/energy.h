@@ -19,9 +19,7 @@ struct Energies {
 
   double hourglass() const { return hourglass_stored + hourglass_dissipated; }
   double contact() const { return contact_stored + contact_dissipated; }
-  double total() const {
-    return kinetic + internal + hourglass() + viscous + damping + contact();
-  }
+  double total() const { return kinetic + internal + hourglass() + viscous + damping + contact(); }
   double supplied() const { return initial + external_work + interface_work; }
   /// Energy that came from nowhere (> 0) or got lost (< 0), as a share of the largest entry.
   double balance_error() const;

@@ -42,8 +42,8 @@ void place_offsets(Model& model) {
   for (const auto& block : model.blocks) {
     model.force_offset.push_back(force);
     model.moment_offset.push_back(moment);
-    const std::size_t size = static_cast<std::size_t>(block->group_count()) * block->corners() * 3 *
-                             kLanes;
+    const std::size_t size =
+        static_cast<std::size_t>(block->group_count()) * block->corners() * 3 * kLanes;
     force += size;
     if (block->has_moments()) moment += size;
   }

@@ -25,13 +25,12 @@ void element_forces(const Model& model, State& state, Scratch& scratch) {
     const Scratch::Chunk& chunk = scratch.chunks[c];
     const std::size_t b = chunk.block;
     scratch.chunk_sums[c] = BlockSums{};
-    model.blocks[b]->forces(
-        context, state.history[b],
-        {scratch.corner_forces.data() + model.force_offset[b],
-         scratch.corner_forces.data() + model.force_offset[b + 1]},
-        {scratch.corner_moments.data() + model.moment_offset[b],
-         scratch.corner_moments.data() + model.moment_offset[b + 1]},
-        chunk.first, chunk.last, scratch.chunk_sums[c]);
+    model.blocks[b]->forces(context, state.history[b],
+                            {scratch.corner_forces.data() + model.force_offset[b],
+                             scratch.corner_forces.data() + model.force_offset[b + 1]},
+                            {scratch.corner_moments.data() + model.moment_offset[b],
+                             scratch.corner_moments.data() + model.moment_offset[b + 1]},
+                            chunk.first, chunk.last, scratch.chunk_sums[c]);
   }
 }
 
@@ -64,10 +63,10 @@ StepReport sum_blocks(const Model& model, State& state, Scratch& scratch) {
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
     const BlockSums& sums = scratch.block_sums[b];
     if (sums.inverted_element >= 0)
-      throw NumericalError(state.time,
-                           fmt::format("{} has Jacobian {:.3g}",
-                                       describe_element(model, b, sums.inverted_element),
-                                       sums.inverted_jacobian));
+      throw NumericalError(
+          state.time,
+          fmt::format("{} has Jacobian {:.3g}", describe_element(model, b, sums.inverted_element),
+                      sums.inverted_jacobian));
     e.internal += sums.internal;
     e.hourglass_stored += sums.hourglass;
     e.hourglass_dissipated += sums.hourglass_dissipated;
@@ -193,8 +192,10 @@ void integrate(const Model& model, State& state, Scratch& scratch, double kick, 
 
 double guided_velocity(const GuidedNodes& guide, double time, double dt, double before) {
   switch (guide.kind) {
-    case MotionKind::Velocity: return guide.scale * guide.curve.value(time + 0.5 * dt);
-    case MotionKind::Acceleration: return before + guide.scale * guide.curve.value(time) * dt;
+    case MotionKind::Velocity:
+      return guide.scale * guide.curve.value(time + 0.5 * dt);
+    case MotionKind::Acceleration:
+      return before + guide.scale * guide.curve.value(time) * dt;
     case MotionKind::Displacement:
       return guide.scale * (guide.curve.value(time + dt) - guide.curve.value(time)) / dt;
   }
@@ -318,8 +319,8 @@ StepReport compute_forces(const Model& model, State& state, Scratch& scratch) {
 }
 
 void move(const Model& model, State& state, Scratch& scratch, double dt) {
-  // Velocities sit at mid-steps: the kick spans half of the last step and half of this one. The very
-  // first one is a half kick, from the velocities at t = 0.
+  // Velocities sit at mid-steps: the kick spans half of the last step and half of this one. The
+  // very first one is a half kick, from the velocities at t = 0.
   const double kick = 0.5 * (state.last_dt + dt);
   remember_constrained(model, state, scratch);
   integrate(model, state, scratch, kick, dt);

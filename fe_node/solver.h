@@ -11,8 +11,8 @@
 namespace crosswalk::fe {
 
 struct StepReport {
-  double stable_step = 0;     ///< s, smallest over elements and contacts, unscaled
-  int critical_block = -1;    ///< block and block-local element that set it; -1: a contact
+  double stable_step = 0;   ///< s, smallest over elements and contacts, unscaled
+  int critical_block = -1;  ///< block and block-local element that set it; -1: a contact
   int critical_element = -1;
 };
 
@@ -40,8 +40,8 @@ struct Scratch {
   std::vector<std::array<double, 3>> node_sums;
 };
 
-/// Forces at the present positions and the energies that go with them. Throws NumericalError when an
-/// element is inverted or a force is not a number.
+/// Forces at the present positions and the energies that go with them. Throws NumericalError when
+/// an element is inverted or a force is not a number.
 StepReport compute_forces(const Model& model, State& state, Scratch& scratch);
 /// Kick and drift by dt with those forces. Driven bodies take scratch.body_command.
 void move(const Model& model, State& state, Scratch& scratch, double dt);

@@ -42,7 +42,7 @@ struct BlockSums {
   int critical_element = -1;  ///< block-local element that sets it
   int inverted_element = -1;  ///< block-local element with J <= 0 or NaN, or -1
   double inverted_jacobian = 0;
-  int failed = 0;             ///< elements that carry nothing any more
+  int failed = 0;  ///< elements that carry nothing any more
 };
 
 /// The state of one element as outputs want it; Cauchy stress in W.

@@ -29,9 +29,9 @@ void set_reference(const Vec3 (&x)[8], double density, int lane, HexReference<La
   for (int a = 0; a < 4; ++a) {
     Vec3 sum = Vec3::Zero();
     for (int node = 0; node < 8; ++node)
-      sum += (a < 3 ? signs[a][0][node] * signs[a][1][node]
-                    : kXi[node] * kEta[node] * kZeta[node]) *
-             x[node];
+      sum +=
+          (a < 3 ? signs[a][0][node] * signs[a][1][node] : kXi[node] * kEta[node] * kZeta[node]) *
+          x[node];
     for (int i = 0; i < 3; ++i) ref.hourglass[a][i][lane] = sum[i];
   }
   const double entries[6] = {metric(0, 0), metric(1, 1), metric(2, 2),
@@ -44,10 +44,10 @@ void set_reference(const Vec3 (&x)[8], double density, int lane, HexReference<La
 // The volume is the sum of six times the triple products of a trilinear brick; its gradient is the
 // closed form of [flanagan1981, eq. 16], whose other entries follow by cyclic node permutations.
 void hex8_volume_gradient(const Vec3 (&x)[8], Vec3 (&gradient)[8]) {
-  constexpr int kPermutation[8][8] = {
-      {0, 1, 2, 3, 4, 5, 6, 7}, {1, 2, 3, 0, 5, 6, 7, 4}, {2, 3, 0, 1, 6, 7, 4, 5},
-      {3, 0, 1, 2, 7, 4, 5, 6}, {4, 7, 6, 5, 0, 3, 2, 1}, {5, 4, 7, 6, 1, 0, 3, 2},
-      {6, 5, 4, 7, 2, 1, 0, 3}, {7, 6, 5, 4, 3, 2, 1, 0}};
+  constexpr int kPermutation[8][8] = {{0, 1, 2, 3, 4, 5, 6, 7}, {1, 2, 3, 0, 5, 6, 7, 4},
+                                      {2, 3, 0, 1, 6, 7, 4, 5}, {3, 0, 1, 2, 7, 4, 5, 6},
+                                      {4, 7, 6, 5, 0, 3, 2, 1}, {5, 4, 7, 6, 1, 0, 3, 2},
+                                      {6, 5, 4, 7, 2, 1, 0, 3}, {7, 6, 5, 4, 3, 2, 1, 0}};
   for (int node = 0; node < 8; ++node) {
     const int* p = kPermutation[node];
     for (int i = 0; i < 3; ++i) {
@@ -146,8 +146,8 @@ void store_corner_forces(const HexAnswer<Lanes>& answer, double* corner_forces) 
           answer.force[node][i];
 }
 
-std::unique_ptr<ElementBlock> make_hex8_block(const Mesh& mesh, int part,
-                                              std::vector<int> elements, const SolidLaw& law,
+std::unique_ptr<ElementBlock> make_hex8_block(const Mesh& mesh, int part, std::vector<int> elements,
+                                              const SolidLaw& law,
                                               const ElementControls& controls) {
   return std::visit(
       [&](const auto& l) -> std::unique_ptr<ElementBlock> {

@@ -16,9 +16,8 @@
 
 namespace crosswalk::fe {
 
-std::unique_ptr<ElementBlock> make_hex8_block(const Mesh& mesh, int part,
-                                              std::vector<int> elements, const SolidLaw& law,
-                                              const ElementControls& controls);
+std::unique_ptr<ElementBlock> make_hex8_block(const Mesh& mesh, int part, std::vector<int> elements,
+                                              const SolidLaw& law, const ElementControls& controls);
 
 /// Exact volume of a trilinear hexahedron; negative when its nodes are numbered inside out.
 double hex8_volume(const Vec3 (&x)[8]);

@@ -64,9 +64,9 @@ class Hex8Block final : public ElementBlock {
     const HexReference<Lanes>& ref = shapes_.groups[element / kLanes];
     Tensor<Lanes> identity;
     for (int k = 0; k < 9; ++k) identity(k / 3, k % 3).setConstant(k % 4 == 0 ? 1.0 : 0.0);
-    const Lanes squared = hex_stable_step_squared(
-        ref, identity, constant<Lanes>(1), constant<Lanes>(law_.bulk_modulus()),
-        constant<Lanes>(law_.shear_modulus()));
+    const Lanes squared = hex_stable_step_squared(ref, identity, constant<Lanes>(1),
+                                                  constant<Lanes>(law_.bulk_modulus()),
+                                                  constant<Lanes>(law_.shear_modulus()));
     return std::sqrt(squared[element % kLanes]);
   }
 

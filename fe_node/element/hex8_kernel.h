@@ -9,8 +9,8 @@ namespace crosswalk::fe {
 /// What an element keeps of its undeformed shape. B_I = dV/dX_I.
 template <class N>
 struct HexReference {
-  N gradient[8][3];   ///< B_I, m2
-  N volume;           ///< m3
+  N gradient[8][3];  ///< B_I, m2
+  N volume;          ///< m3
   N inverse_volume;
   N hourglass[4][3];  ///< h_a . X, m
   N metric[6];        ///< sum_I b_I b_I^T with b = B / V (xx yy zz xy yz zx), 1/m2
@@ -72,8 +72,8 @@ N largest_eigenvalue_bound(const Symmetric<N>& g) {
   const N a = g.xx - mean, b = g.yy - mean, c = g.zz - mean;
   const N off = g.xy * g.xy + g.yz * g.yz + g.zx * g.zx;
   const N third_j2 = (a * a + b * b + c * c + 2.0 * off) * (1.0 / 6.0);
-  const N det = a * (b * c - g.yz * g.yz) - g.xy * (g.xy * c - g.yz * g.zx) +
-                g.zx * (g.xy * g.yz - b * g.zx);
+  const N det =
+      a * (b * c - g.yz * g.yz) - g.xy * (g.xy * c - g.yz * g.zx) + g.zx * (g.xy * g.yz - b * g.zx);
   // y^3 - 3 p2 y - det = 0 for the deviator's eigenvalue y, p2 = third_j2; y <= 2 sqrt(p2).
   N y = 2.0 * square_root(third_j2);
   for (int i = 0; i < 2; ++i) {
@@ -94,7 +94,8 @@ void accumulate_gradient(const HexReference<N>& ref, const N (&u)[8][3], Tensor<
 }
 
 /// omega^2 <= 8 J / rho0 (lambda tr g + 2 mu g_max), g = F^-T metric F^-1: the element eigenvalue
-/// bound of [flanagan1984] with the shear part bounded by the largest direction. dt^2 = 4 / omega^2.
+/// bound of [flanagan1984] with the shear part bounded by the largest direction. dt^2 = 4 /
+/// omega^2.
 template <class N>
 N hex_stable_step_squared(const HexReference<N>& ref, const Tensor<N>& Fi, const N& J,
                           const N& bulk_modulus, const N& shear_modulus) {
@@ -108,7 +109,8 @@ N hex_stable_step_squared(const HexReference<N>& ref, const Tensor<N>& Fi, const
   auto entry = [&](int i, int j) -> N {
     return Fi(0, i) * t[0][j] + Fi(1, i) * t[1][j] + Fi(2, i) * t[2][j];
   };
-  const Symmetric<N> g{entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)};
+  const Symmetric<N> g{entry(0, 0), entry(1, 1), entry(2, 2),
+                       entry(0, 1), entry(1, 2), entry(2, 0)};
   const N lambda = larger(N(bulk_modulus - 2.0 / 3.0 * shear_modulus), constant<N>(0));
   const N stiffness = lambda * trace(g) + 2.0 * shear_modulus * largest_eigenvalue_bound(g);
   return 0.5 * ref.density / (J * stiffness);
@@ -132,8 +134,7 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
 
   // Bulk viscosity [hallquist2006, 3.5]: q = rho l (Q1 l e^2 - Q2 c e) in compression (e < 0).
   N expansion = step.F_rate(0, 0) * step.F_inverse(0, 0);
-  for (int k = 1; k < 9; ++k)
-    expansion += step.F_rate(k / 3, k % 3) * step.F_inverse(k % 3, k / 3);
+  for (int k = 1; k < 9; ++k) expansion += step.F_rate(k / 3, k % 3) * step.F_inverse(k % 3, k / 3);
   const N wave_speed = square_root(
       N((material.bulk_modulus + 4.0 / 3.0 * material.shear_modulus) * step.J / law.density));
   const N compression = larger(N(-expansion), constant<N>(0)) * ref.length;
@@ -169,9 +170,9 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
         t[a] *= factor;
       }
       for (int j = 0; j < 3; ++j)
-        material.P(i, j) -= ref.inverse_volume *
-                            (t[0] * ref.hourglass[0][j] + t[1] * ref.hourglass[1][j] +
-                             t[2] * ref.hourglass[2][j] + t[3] * ref.hourglass[3][j]);
+        material.P(i, j) -=
+            ref.inverse_volume * (t[0] * ref.hourglass[0][j] + t[1] * ref.hourglass[1][j] +
+                                  t[2] * ref.hourglass[2][j] + t[3] * ref.hourglass[3][j]);
       subtract_modes(t, i, answer.force);
     }
     (is_viscous ? answer.hourglass_power : answer.hourglass_stored) =
@@ -180,14 +181,14 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
 
   for (int node = 0; node < 8; ++node)
     for (int i = 0; i < 3; ++i)
-      answer.force[node][i] = (answer.force[node][i] - material.P(i, 0) * ref.gradient[node][0] -
-                               material.P(i, 1) * ref.gradient[node][1] -
-                               material.P(i, 2) * ref.gradient[node][2]) *
-                              answer.alive;
+      answer.force[node][i] =
+          (answer.force[node][i] - material.P(i, 0) * ref.gradient[node][0] -
+           material.P(i, 1) * ref.gradient[node][1] - material.P(i, 2) * ref.gradient[node][2]) *
+          answer.alive;
 
   // Damping with ratio s = (Q1 e l + Q2 c) / c shortens the step by sqrt(1 + s^2) - s.
-  const N ratio = where_less(constant<N>(0), compression, N(viscous_speed / wave_speed),
-                             constant<N>(0));
+  const N ratio =
+      where_less(constant<N>(0), compression, N(viscous_speed / wave_speed), constant<N>(0));
   const N shorten = square_root(N(1.0 + ratio * ratio)) - ratio;
   answer.stable_step_squared =
       hex_stable_step_squared(ref, step.F_inverse, step.J, material.bulk_modulus,

@@ -2,8 +2,8 @@
 
 namespace crosswalk::fe {
 
-Viscoelastic Viscoelastic::from_single_term(double density, double bulk_modulus,
-                                            double shear_short, double shear_long, double decay) {
+Viscoelastic Viscoelastic::from_single_term(double density, double bulk_modulus, double shear_short,
+                                            double shear_long, double decay) {
   Viscoelastic law;
   law.density = density;
   law.bulk = bulk_modulus;

@@ -1,8 +1,8 @@
 // Finite linear viscoelasticity with a Prony series in shear and an elastic bulk response,
 //   G(t) = G_inf + sum G_i exp(-beta_i t),
 // in the total form of [simo1987]: the instantaneous response is the isochoric neo-Hooke law with
-// G_0 = G_inf + sum G_i, and each term relaxes a stress-like internal variable kept in the undeformed
-// frame, so a rigid rotation leaves it untouched. The series is the deviatoric law of
+// G_0 = G_inf + sum G_i, and each term relaxes a stress-like internal variable kept in the
+// undeformed frame, so a rigid rotation leaves it untouched. The series is the deviatoric law of
 // *MAT_VISCOELASTIC and *MAT_KELVIN-MAXWELL for small strain; pressure is -K (J - 1).
 #pragma once
 
@@ -19,9 +19,9 @@ struct Viscoelastic {
     double decay = 0;          ///< 1/s
   };
 
-  double density = 0;             ///< kg/m3
-  double bulk = 0;                ///< Pa
-  double long_term_modulus = 0;   ///< G_inf, Pa
+  double density = 0;            ///< kg/m3
+  double bulk = 0;               ///< Pa
+  double long_term_modulus = 0;  ///< G_inf, Pa
   std::array<Term, kMaxTerms> terms{};
   int term_count = 0;
 
@@ -42,9 +42,9 @@ struct Viscoelastic {
     for (int i = 0; i < history_size(); ++i) history[i] = constant<N>(0);
   }
 
-  /// History: work of the relaxing part, then y_i (six components) of each term, where the overstress
-  /// is h_i = y_i + G_i T and dy_i/dt = -beta_i h_i. T = J^-2/3 (I - tr C / 3 C^-1). The update is
-  /// exact for a T held over the step; its error is beta dt / 2 of a term.
+  /// History: work of the relaxing part, then y_i (six components) of each term, where the
+  /// overstress is h_i = y_i + G_i T and dy_i/dt = -beta_i h_i. T = J^-2/3 (I - tr C / 3 C^-1). The
+  /// update is exact for a T held over the step; its error is beta dt / 2 of a term.
   template <class N>
   SolidAnswer<N> update(const SolidStep<N>& step, N* history) const {
     const N& J = step.J;
@@ -53,9 +53,12 @@ struct Viscoelastic {
     const N isochoric = exponential(N((-2.0 / 3.0) * logarithm(J)));
     const N trace_share = trace(C) * (1.0 / 3.0);
     const N a = -isochoric * trace_share;
-    const Symmetric<N> T{isochoric + a * C_inverse.xx, isochoric + a * C_inverse.yy,
-                         isochoric + a * C_inverse.zz, a * C_inverse.xy,
-                         a * C_inverse.yz,             a * C_inverse.zx};
+    const Symmetric<N> T{isochoric + a * C_inverse.xx,
+                         isochoric + a * C_inverse.yy,
+                         isochoric + a * C_inverse.zz,
+                         a * C_inverse.xy,
+                         a * C_inverse.yz,
+                         a * C_inverse.zx};
 
     Symmetric<N> Y = zero<N>(), Y_middle = zero<N>();
     for (int i = 0; i < term_count; ++i)
@@ -64,17 +67,16 @@ struct Viscoelastic {
     const double G0 = shear_modulus();
     const N shift = contract(Y, C) * (1.0 / 3.0);
     const N pressure_part = bulk * (J - 1.0) * J - shift;
-    const Symmetric<N> S{
-        G0 * T.xx + Y.xx + pressure_part * C_inverse.xx,
-        G0 * T.yy + Y.yy + pressure_part * C_inverse.yy,
-        G0 * T.zz + Y.zz + pressure_part * C_inverse.zz,
-        G0 * T.xy + Y.xy + pressure_part * C_inverse.xy,
-        G0 * T.yz + Y.yz + pressure_part * C_inverse.yz,
-        G0 * T.zx + Y.zx + pressure_part * C_inverse.zx};
+    const Symmetric<N> S{G0 * T.xx + Y.xx + pressure_part * C_inverse.xx,
+                         G0 * T.yy + Y.yy + pressure_part * C_inverse.yy,
+                         G0 * T.zz + Y.zz + pressure_part * C_inverse.zz,
+                         G0 * T.xy + Y.xy + pressure_part * C_inverse.xy,
+                         G0 * T.yz + Y.yz + pressure_part * C_inverse.yz,
+                         G0 * T.zx + Y.zx + pressure_part * C_inverse.zx};
 
     const Symmetric<N> dE = green_lagrange_increment(step);
-    history[0] += contract(Y_middle, dE) -
-                  contract(Y_middle, C) * (1.0 / 3.0) * contract(C_inverse, dE);
+    history[0] +=
+        contract(Y_middle, dE) - contract(Y_middle, C) * (1.0 / 3.0) * contract(C_inverse, dE);
     SolidAnswer<N> answer;
     answer.P = product(step.F, S);
     answer.energy = 1.5 * G0 * (isochoric * trace_share - 1.0) +

@@ -1,0 +1,138 @@
+#include "common/anthropometry.h"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace crosswalk {
+namespace {
+
+using A = Anthropometry;
+using K = MeasureKind;
+
+constexpr std::array<Measure, 35> kMeasures = {{
+    {1, "mass", K::Mass, &A::mass},
+    {2, "standing_height", K::Length, &A::standing_height},
+    {3, "shoulder_height", K::Length, &A::shoulder_height},
+    {4, "armpit_height", K::Length, &A::armpit_height},
+    {5, "waist_height", K::Length, &A::waist_height},
+    {6, "seated_height", K::Length, &A::seated_height},
+    {7, "head_length", K::Length, &A::head_length},
+    {8, "head_breadth", K::Length, &A::head_breadth},
+    {9, "head_to_chin_height", K::Length, &A::head_to_chin_height},
+    {10, "neck_circumference", K::Girth, &A::neck_circumference},
+    {11, "shoulder_breadth", K::Length, &A::shoulder_breadth},
+    {12, "chest_depth", K::Girth, &A::chest_depth},
+    {13, "chest_breadth", K::Girth, &A::chest_breadth},
+    {14, "waist_depth", K::Girth, &A::waist_depth},
+    {15, "waist_breadth", K::Girth, &A::waist_breadth},
+    {16, "buttock_depth", K::Girth, &A::buttock_depth},
+    {17, "hip_breadth_standing", K::Girth, &A::hip_breadth_standing},
+    {18, "shoulder_to_elbow_length", K::Length, &A::shoulder_to_elbow_length},
+    {19, "forearm_hand_length", K::Length, &A::forearm_hand_length},
+    {20, "biceps_circumference", K::Girth, &A::biceps_circumference},
+    {21, "elbow_circumference", K::Girth, &A::elbow_circumference},
+    {22, "forearm_circumference", K::Girth, &A::forearm_circumference},
+    {23, "wrist_circumference", K::Girth, &A::wrist_circumference},
+    {24, "knee_height_seated", K::Length, &A::knee_height_seated},
+    {25, "thigh_circumference", K::Girth, &A::thigh_circumference},
+    {26, "upper_leg_circumference", K::Girth, &A::upper_leg_circumference},
+    {27, "knee_circumference", K::Girth, &A::knee_circumference},
+    {28, "calf_circumference", K::Girth, &A::calf_circumference},
+    {29, "ankle_circumference", K::Girth, &A::ankle_circumference},
+    {30, "ankle_height_outside", K::Length, &A::ankle_height_outside},
+    {31, "foot_breadth", K::Length, &A::foot_breadth},
+    {32, "foot_length", K::Length, &A::foot_length},
+    {33, "hand_breadth", K::Length, &A::hand_breadth},
+    {34, "hand_length", K::Length, &A::hand_length},
+    {35, "hand_depth", K::Length, &A::hand_depth},
+}};
+
+constexpr Range kMassRange{8, 300};       // kg, infant to heaviest adult
+constexpr Range kStatureRange{0.6, 2.4};  // m
+constexpr double kImplausible = 0.45;     // relative distance from the predicted measure
+
+Dimension dimension(const Measure& measure) {
+  return measure.kind == K::Mass ? Dimension::Mass : Dimension::Length;
+}
+
+std::string doc(const Measure& measure) {
+  return fmt::format("measure {} of [yu2020, Table 2]{}", measure.number,
+                     measure.number <= 2 ? "" : "; scaled from stature and mass when absent");
+}
+
+void check_order(ConfigTable& table, const Anthropometry& a) {
+  struct Rule {
+    double low, high;
+    std::string_view low_name, high_name;
+  };
+  const std::array<Rule, 7> rules = {{
+      {a.ankle_height_outside, a.knee_height_seated, "ankle_height_outside", "knee_height_seated"},
+      {a.knee_height_seated, a.waist_height, "knee_height_seated", "waist_height"},
+      {a.waist_height, a.armpit_height, "waist_height", "armpit_height"},
+      {a.armpit_height, a.shoulder_height, "armpit_height", "shoulder_height"},
+      {a.shoulder_height, a.standing_height, "shoulder_height", "standing_height"},
+      {a.seated_height, a.standing_height, "seated_height", "standing_height"},
+      {a.hand_length, a.forearm_hand_length, "hand_length", "forearm_hand_length"},
+  }};
+  for (const Rule& rule : rules) {
+    if (rule.low < rule.high) continue;
+    table.problem(rule.low_name,
+                  fmt::format("less than {} ({:.1f} mm)", rule.high_name, 1e3 * rule.high),
+                  fmt::format("{:.1f} mm", 1e3 * rule.low),
+                  fmt::format("{:.1f} mm too much", 1e3 * (rule.low - rule.high)));
+  }
+}
+
+}  // namespace
+
+std::span<const Measure> anthropometry_measures() { return kMeasures; }
+
+double predicted_measure(const Measure& measure, const Anthropometry& reference, double mass,
+                         double standing_height) {
+  const double stature_ratio = standing_height / reference.standing_height;
+  const double value = reference.*measure.value;
+  switch (measure.kind) {
+    case K::Mass:
+      return mass;
+    case K::Length:
+      return value * stature_ratio;
+    case K::Girth:
+      return value * std::sqrt(mass / reference.mass / stature_ratio);
+  }
+  return value;
+}
+
+Anthropometry read_complete_anthropometry(ConfigTable table) {
+  Anthropometry a;
+  for (const Measure& measure : kMeasures) {
+    a.*measure.value = table.quantity(measure.name, dimension(measure), kPositive, doc(measure));
+  }
+  return a;
+}
+
+Anthropometry read_anthropometry(ConfigTable subject, const Anthropometry& reference) {
+  Anthropometry a;
+  a.mass = subject.quantity("mass", Dimension::Mass, kMassRange, doc(kMeasures[0]));
+  a.standing_height =
+      subject.quantity("standing_height", Dimension::Length, kStatureRange, doc(kMeasures[1]));
+  for (const Measure& measure : kMeasures) {
+    if (measure.number <= 2) continue;
+    const double predicted = predicted_measure(measure, reference, a.mass, a.standing_height);
+    const double given =
+        subject.quantity_or(measure.name, dimension(measure), kPositive, predicted, doc(measure));
+    a.*measure.value = given;
+    if (std::abs(given / predicted - 1) > kImplausible) {
+      subject.problem(
+          measure.name,
+          fmt::format("within {:.0f} % of {:.0f} mm, the value for this stature and mass",
+                      100 * kImplausible, 1e3 * predicted),
+          fmt::format("{:.1f} mm", 1e3 * given));
+    }
+  }
+  check_order(subject, a);
+  return a;
+}
+
+}  // namespace crosswalk

@@ -1,0 +1,76 @@
+#include "common/anthropometry.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/body_scaling.h"
+#include "tests/common/subject_fixture.h"
+
+namespace crosswalk {
+namespace {
+
+TEST(Anthropometry, HoldsAll35MeasuresOnce) {
+  EXPECT_EQ(anthropometry_measures().size(), 35u);
+  for (std::size_t i = 0; i < 35; ++i) {
+    EXPECT_EQ(anthropometry_measures()[i].number, static_cast<int>(i) + 1);
+  }
+}
+
+TEST(Anthropometry, FillsMissingMeasuresFromStatureAndMass) {
+  const Anthropometry male = load_subject("male_50").measures;
+  EXPECT_DOUBLE_EQ(male.knee_height_seated, 0.552);  // the reference itself
+  const Anthropometry tall =
+      load_subject("male_50", "standing_height_mm = 1914\nmass_kg = 83.27\n").measures;
+  EXPECT_NEAR(tall.knee_height_seated, 1.1 * 0.552, 1e-12);
+  EXPECT_NEAR(tall.thigh_circumference, 0.540, 1e-12);  // mass per stature unchanged
+}
+
+TEST(Anthropometry, RefusesContradictionsWithTheMeasureAndTheAmount) {
+  try {
+    load_subject("v2370", "knee_height_seated_mm = 1200.0\nhead_length_mm = 20.0\n");
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("subject.knee_height_seated"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("110.0 mm too much"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("subject.head_length"));
+  }
+  EXPECT_THROW(load_subject("v2370", "foot_length_mm = -3.0\n"), UserError);
+}
+
+// Heights in mm from an independent computation of the same 16 equations.
+struct HeightCase {
+  const char* subject;
+  double ankle, knee, hip, L5S1, waist, C7T1, SJC, OC;
+};
+
+class ReconciledHeights : public testing::TestWithParam<HeightCase> {};
+
+TEST_P(ReconciledHeights, SolveTheWeightedEquations) {
+  const HeightCase& c = GetParam();
+  const BodyDescription body = load_subject(c.subject);
+  const JointHeights z = solve_heights(body.measures);
+  constexpr double kPrinted = 0.051e-3;  // the last digit of the table
+  EXPECT_NEAR(z.ankle, 1e-3 * c.ankle, kPrinted);
+  EXPECT_NEAR(z.knee, 1e-3 * c.knee, kPrinted);
+  EXPECT_NEAR(z.hip, 1e-3 * c.hip, kPrinted);
+  EXPECT_NEAR(z.L5S1, 1e-3 * c.L5S1, kPrinted);
+  EXPECT_NEAR(z.waist, 1e-3 * c.waist, kPrinted);
+  EXPECT_NEAR(z.C7T1, 1e-3 * c.C7T1, kPrinted);
+  EXPECT_NEAR(z.SJC, 1e-3 * c.SJC, kPrinted);
+  EXPECT_NEAR(z.OC, 1e-3 * c.OC, kPrinted);
+  for (const HeightResidual& row : z.residuals) {
+    EXPECT_LT(std::abs(row.residual), 1.2 * row.sigma) << row.equation;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Subjects, ReconciledHeights,
+    testing::Values(
+        HeightCase{"male_50", 74.9, 492.6, 910.0, 996.1, 1059.2, 1486.4, 1423.7, 1599.2},
+        HeightCase{"v2370", 74.3, 527.8, 937.2, 1026.2, 1093.3, 1533.7, 1468.9, 1661.6},
+        HeightCase{"v2371", 74.6, 511.7, 954.4, 1047.2, 1120.7, 1600.7, 1535.9, 1717.4},
+        HeightCase{"v2374", 72.1, 503.9, 916.5, 1004.7, 1072.9, 1527.6, 1464.3, 1634.1}),
+    [](const auto& test) { return std::string(test.param.subject); });
+
+}  // namespace
+}  // namespace crosswalk

@@ -156,7 +156,10 @@ void sum_body_wrenches(const Model& model, const State& state, Scratch& scratch)
 /// Kick and drift of the free nodes; constrained ones are put right afterwards.
 void integrate(const Model& model, State& state, Scratch& scratch, double kick, double dt) {
   const Vec3 gravity = model.settings.gravity;
+  // Mass damping acts on the mean of both velocities, so it costs no stable step.
   const double damping = model.settings.mass_damping;
+  const double gain = kick / (1 + 0.5 * kick * damping);
+  const double keep = (1 - 0.5 * kick * damping) / (1 + 0.5 * kick * damping);
   const int chunk_count = node_chunk_count(model);
 #pragma omp parallel for schedule(static) num_threads(scratch.threads)
   for (int c = 0; c < chunk_count; ++c) {
@@ -167,16 +170,16 @@ void integrate(const Model& model, State& state, Scratch& scratch, double kick, 
       const Vec3 before = node.velocity();
       Vec3 after = before;
       if (node.inverse_mass > 0) {
-        after += kick * (scratch.force[n] * node.inverse_mass + gravity - damping * before);
+        after = keep * before + gain * (scratch.force[n] * node.inverse_mass + gravity);
         kinetic += 0.5 * model.mass[n] * before.dot(after);
         gravity_work += 0.5 * kick * model.mass[n] * gravity.dot(before + after);
-        damped += 0.5 * kick * damping * model.mass[n] * before.dot(before + after);
+        damped += 0.25 * kick * damping * model.mass[n] * (before + after).squaredNorm();
         node.set_velocity(after);
         node.set_position(node.position() + dt * after);
       }
       if (model.has_rotations() && model.inertia[n] > 0) {
         const Vec3 spin = state.spin[n];
-        state.spin[n] += kick * (scratch.moment[n] / model.inertia[n] - damping * spin);
+        state.spin[n] = keep * spin + gain / model.inertia[n] * scratch.moment[n];
         kinetic += 0.5 * model.inertia[n] * spin.dot(state.spin[n]);
       }
     }

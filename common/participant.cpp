@@ -74,6 +74,7 @@ template <class Reply, class M>
 MbSession::MbSession(Bus& bus, MbParticipant& participant, NodeIdentity identity, Limits limits)
     : NodeSession(bus, std::move(identity), limits),
       participant_(participant),
+      phased_(records()),
       bodies_(participant.interface_bodies()) {
   bus.subscribe<msg::boundary_mass>(Role::Coupler,
                                     [this](const msg::boundary_mass& m) { take_masses(m); });
@@ -125,7 +126,7 @@ void MbSession::execute(const msg::step_to_mb& m) {
   const auto begin = Bus::Clock::now();
   const MbGrant grant = from_message(m);
   try {
-    const MbReply reply = participant_.advance(grant, records());
+    const MbReply reply = phased_.advance(participant_, grant);
     if (m.window % 8 == 7) records().flush();
     mobility_.clear();
     if (reply.mobility.size() > 0) {
@@ -147,6 +148,7 @@ void MbSession::execute(const msg::step_to_mb& m) {
 FeSession::FeSession(Bus& bus, FeParticipant& participant, NodeIdentity identity, Limits limits)
     : NodeSession(bus, std::move(identity), limits),
       participant_(participant),
+      phased_(records()),
       bodies_(participant.interface_bodies()) {
   bus.subscribe<msg::boundary_motion>(Role::Coupler,
                                       [this](const msg::boundary_motion& m) { take_motion(m); });
@@ -214,7 +216,7 @@ void FeSession::execute(const msg::step_to_fe& m) {
   FeGrant grant = from_message(m);
   if (m.mobility_id >= 0) grant.mobility = mobilities_.at(m.mobility_id);
   try {
-    const FeReply reply = participant_.advance(grant, records());
+    const FeReply reply = phased_.advance(participant_, grant);
     if (m.window % 8 == 7) records().flush();
     msg::fe_done done = to_message(grant.id, reply);
     done.n_records = records().count();

@@ -27,6 +27,24 @@ class GrantLedger {
   std::vector<std::vector<std::byte>> answers_;
 };
 
+/// Calls a participant so that only windows done for good reach the records.
+class PhasedRecords {
+ public:
+  explicit PhasedRecords(RecordStream& records) : records_(records) {}
+  template <class Participant, class Grant>
+  auto advance(Participant& participant, const Grant& grant) {
+    if (grant.id.phase == Phase::Advance) return participant.advance(grant, records_);
+    if (grant.id.phase == Phase::Evaluate) deferred_.clear();
+    auto reply = participant.advance(grant, deferred_);
+    if (grant.id.phase == Phase::Accept) deferred_.replay(records_);
+    return reply;
+  }
+
+ private:
+  RecordStream& records_;
+  DeferredRecords deferred_;
+};
+
 class MbSession : public NodeSession {
  public:
   MbSession(Bus& bus, MbParticipant& participant, NodeIdentity identity, Limits limits);
@@ -41,6 +59,7 @@ class MbSession : public NodeSession {
 
   MbParticipant& participant_;
   GrantLedger ledger_;
+  PhasedRecords phased_;
   std::vector<InterfaceBody> bodies_;
   bool has_masses_ = false;
   std::vector<std::byte> mobility_;  ///< measured for the last grant, or empty
@@ -61,6 +80,7 @@ class FeSession : public NodeSession {
 
   FeParticipant& participant_;
   GrantLedger ledger_;
+  PhasedRecords phased_;
   std::vector<InterfaceBody> bodies_;
   bool is_placed_ = false;
   std::map<int, Eigen::MatrixXd> mobilities_;     ///< the latest few, by id

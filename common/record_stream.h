@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,35 @@ class RecordStream : public RecordSink {
   msg::head_kinematics batch_{};
   std::deque<Kept> kept_;
   std::atomic<std::int64_t> count_{0};
+};
+
+/// Holds the records of a window that may be done again; the accepted pass is replayed.
+class DeferredRecords : public RecordSink {
+ public:
+  void head(const HeadSample& sample) override {
+    keep([=](RecordSink& sink) { sink.head(sample); });
+  }
+  void body_states(std::int64_t t_ns, const std::vector<Pose>& X_WB) override {
+    keep([=](RecordSink& sink) { sink.body_states(t_ns, X_WB); });
+  }
+  void contact_forces(std::int64_t t_ns, const std::vector<Vec3>& forces) override {
+    keep([=](RecordSink& sink) { sink.contact_forces(t_ns, forces); });
+  }
+  void tissue(const TissueSample& sample) override {
+    keep([=](RecordSink& sink) { sink.tissue(sample); });
+  }
+  void event(std::int64_t t_ns, EventLevel level, const std::string& text) override {
+    keep([=](RecordSink& sink) { sink.event(t_ns, level, text); });
+  }
+  void clear() { kept_.clear(); }
+  void replay(RecordSink& sink) {
+    for (const auto& record : kept_) record(sink);
+    clear();
+  }
+
+ private:
+  void keep(std::function<void(RecordSink&)> record) { kept_.push_back(std::move(record)); }
+  std::vector<std::function<void(RecordSink&)>> kept_;
 };
 
 }  // namespace crosswalk

@@ -1,0 +1,200 @@
+#include "coupler/scheme.h"
+
+#include <fmt/format.h>
+
+#include "common/error.h"
+#include "common/messages.h"
+#include "coupler/fixed_point.h"
+
+namespace crosswalk::coupling {
+
+namespace {
+
+std::vector<Vec6> zeros(std::size_t n) { return std::vector<Vec6>(n, Vec6::Zero()); }
+
+// Impulses of the attached bodies, stacked.
+Eigen::VectorXd stacked(const std::vector<Vec6>& a, int n) {
+  Eigen::VectorXd out(6 * n);
+  for (int k = 0; k < n; ++k) out.segment<6>(6 * k) = a[static_cast<std::size_t>(k)];
+  return out;
+}
+
+// The motion fe follows: from the twist at the start (after `kick`, the twist change by the carried
+// impulse) to the twist that mb reached.
+std::vector<BodyDrive> drives_between(const std::vector<BodyMotion>& begin,
+                                      const std::vector<BodyMotion>& end,
+                                      const std::vector<Vec6>& kick,
+                                      const std::vector<Vec6>& bias) {
+  std::vector<BodyDrive> drives(begin.size());
+  for (std::size_t k = 0; k < begin.size(); ++k) {
+    const Vec6 V_0 = stack(begin[k].V_WB) + kick[k];
+    drives[k] = {begin[k].X_WB, twist_from(V_0), stack(end[k].V_WB) - V_0, bias[k]};
+  }
+  return drives;
+}
+
+// Books the window's impulses: what mb did not yet get becomes the carry, the mean wrench the next
+// bias.
+void hand_on(CouplingState& state, const WindowResult& result, const std::vector<Vec6>& bias_used) {
+  const double H = result.id.length_s();
+  state.bias_before = bias_used;
+  for (std::size_t k = 0; k < state.bias.size(); ++k) {
+    const Vec6& J = result.fe.loads[k].impulse;
+    state.carry[k] = J - bias_used[k] * H;
+    state.bias[k] = J / H;
+  }
+  state.bias = as_on_wire(MbGrant{.id = {}, .carry = {}, .bias = state.bias}).bias;
+  state.motion = result.mb.bodies;
+  ++state.window;
+}
+
+void note_mobility(const SchemeSettings& settings, CouplingState& state, const MbReply& mb) {
+  if (mb.mobility.size() > 0) {
+    state.mobility = mobility_as_on_wire(mb.mobility);
+    state.mobility_window = state.window;
+  }
+  state.mobility_is_due =
+      mb.mobility_changed || state.window + 1 - state.mobility_window >= settings.mobility_every;
+}
+
+// Mobility-corrected staggering with impulse carry-over.
+//   1. mb advances over the window with the bias and the carried impulse, never rolled back.
+//   2. V_0 = V_n + M C, A = (V_n+1 - V_0) / H describe the whole multibody system to fe.
+//   3. fe advances: in every substep V += d [A + M (F - b)]; it returns J = sum d F.
+//   4. C = J - b H, next b = J / H.
+// The block and the body share one velocity at every substep of fe, so the scheme has no lagged
+// force that could feed energy, however light the body.
+WindowResult advance_mic(const SchemeSettings& settings, CouplingState& state,
+                         std::int64_t window_ns, MbLink& mb, FeLink& fe) {
+  WindowResult result{.id = {state.window, window_ns}, .mb = {}, .fe = {}};
+  result.mb = mb.advance({.id = result.id,
+                          .want_mobility = state.mobility_is_due && settings.n_attached > 0,
+                          .carry = state.carry,
+                          .bias = state.bias});
+  note_mobility(settings, state, result.mb);
+
+  std::vector<Vec6> kick = zeros(state.motion.size());
+  if (settings.n_attached > 0) {
+    const Eigen::VectorXd dV = state.mobility * stacked(state.carry, settings.n_attached);
+    for (int k = 0; k < settings.n_attached; ++k)
+      kick[static_cast<std::size_t>(k)] = dV.segment<6>(6 * k);
+  }
+  const FeGrant grant =
+      as_on_wire({.id = result.id,
+                  .drives = drives_between(state.motion, result.mb.bodies, kick, state.bias),
+                  .mobility = state.mobility});
+  result.fe = fe.advance(grant);
+  hand_on(state, result, state.bias);
+  return result;
+}
+
+// Conventional staggering, for comparison only: mb takes the last window's wrench, fe follows
+// blindly. The force lags one window behind the motion and feeds energy: light bodies blow up.
+WindowResult advance_staggered(CouplingState& state, std::int64_t window_ns, MbLink& mb,
+                               FeLink& fe) {
+  WindowResult result{.id = {state.window, window_ns}, .mb = {}, .fe = {}};
+  const std::vector<Vec6> none = zeros(state.motion.size());
+  result.mb = mb.advance({.id = result.id, .carry = none, .bias = state.bias});
+  result.fe =
+      fe.advance(as_on_wire({.id = result.id,
+                             .drives = drives_between(state.motion, result.mb.bodies, none, none),
+                             .mobility = {}}));
+  hand_on(state, result, state.bias);
+  state.carry = none;
+  return result;
+}
+
+// Iterates the window from saved states until the wrench mb assumed is the one fe returns.
+WindowResult advance_implicit(const SchemeSettings& settings, CouplingState& state,
+                              std::int64_t window_ns, MbLink& mb, FeLink& fe) {
+  WindowResult result{.id = {state.window, window_ns, 0, Phase::Evaluate}, .mb = {}, .fe = {}};
+  const auto n = static_cast<int>(state.motion.size());
+  const double H = result.id.length_s();
+  const std::vector<Vec6> none = zeros(state.motion.size());
+  std::vector<Vec6> assumed;
+
+  const auto mean_wrench = [&](const Eigen::VectorXd& x) {
+    assumed.resize(static_cast<std::size_t>(n));
+    for (int k = 0; k < n; ++k) assumed[static_cast<std::size_t>(k)] = x.segment<6>(6 * k);
+    const MbGrant grant = as_on_wire({.id = result.id, .carry = state.carry, .bias = assumed});
+    assumed = grant.bias;
+    result.mb = mb.advance(grant);
+    result.fe =
+        fe.advance(as_on_wire({.id = result.id,
+                               .drives = drives_between(state.motion, result.mb.bodies, none, none),
+                               .mobility = {}}));
+    ++result.id.iteration;
+    Eigen::VectorXd returned(6 * n);
+    for (int k = 0; k < n; ++k) {
+      returned.segment<6>(6 * k) = result.fe.loads[static_cast<std::size_t>(k)].impulse / H;
+    }
+    return returned;
+  };
+
+  const Eigen::VectorXd last = stacked(state.bias, n), before = stacked(state.bias_before, n);
+  const FixedPoint solved =
+      solve_fixed_point(mean_wrench, 2 * last - before, wrench_scale(last),
+                        {settings.tolerance, settings.max_iterations, settings.anderson_depth});
+  result.iterations = result.id.iteration;
+  result.residual = solved.residual;
+  result.converged = solved.residual <= settings.tolerance;
+  if (solved.residual > settings.accepted_residual) {
+    throw NumericalError(
+        result.id.begin_s(),
+        fmt::format("the implicit iteration of window {} is at a relative residual of "
+                    "{:.1e} after {} passes (accepted: {:.0e}); use a shorter window_us "
+                    "or scheme = \"mic\"",
+                    state.window, solved.residual, result.iterations, settings.accepted_residual));
+  }
+  result.id.phase = Phase::Accept;
+  mb.advance({.id = result.id, .carry = none, .bias = none});
+  FeGrant accept{
+      .id = result.id, .drives = std::vector<BodyDrive>(state.motion.size()), .mobility = {}};
+  fe.advance(accept);
+  hand_on(state, result, assumed);
+  return result;
+}
+
+}  // namespace
+
+CouplingState start_state(const std::vector<InterfaceBody>& bodies) {
+  CouplingState state;
+  for (const InterfaceBody& body : bodies) state.motion.push_back(body.motion);
+  state.bias = state.bias_before = state.carry = zeros(bodies.size());
+  return state;
+}
+
+WindowResult advance_window(const SchemeSettings& settings, CouplingState& state,
+                            std::int64_t window_ns, MbLink& mb, FeLink& fe) {
+  switch (settings.scheme) {
+    case Scheme::Mic:
+      return advance_mic(settings, state, window_ns, mb, fe);
+    case Scheme::Implicit:
+      return advance_implicit(settings, state, window_ns, mb, fe);
+    case Scheme::Staggered:
+      return advance_staggered(state, window_ns, mb, fe);
+  }
+  CW_ASSERT(false);
+}
+
+WindowResult advance_multibody(CouplingState& state, std::int64_t window_ns, MbLink& mb) {
+  WindowResult result{.id = {state.window, window_ns}, .mb = {}, .fe = {}, .iterations = 0};
+  result.mb = mb.advance({.id = result.id, .carry = state.carry, .bias = state.bias});
+  state.motion = result.mb.bodies;
+  ++state.window;
+  return result;
+}
+
+std::string_view scheme_name(Scheme scheme) {
+  switch (scheme) {
+    case Scheme::Mic:
+      return "mic";
+    case Scheme::Implicit:
+      return "implicit";
+    case Scheme::Staggered:
+      return "staggered";
+  }
+  return "";
+}
+
+}  // namespace crosswalk::coupling

@@ -153,45 +153,15 @@ void sum_body_wrenches(const Model& model, const State& state, Scratch& scratch)
   }
 }
 
-/// Kick and drift of the free nodes; constrained ones are put right afterwards.
-void integrate(const Model& model, State& state, Scratch& scratch, double kick, double dt) {
-  const Vec3 gravity = model.settings.gravity;
-  // Mass damping acts on the mean of both velocities, so it costs no stable step.
-  const double damping = model.settings.mass_damping;
-  const double gain = kick / (1 + 0.5 * kick * damping);
-  const double keep = (1 - 0.5 * kick * damping) / (1 + 0.5 * kick * damping);
-  const int chunk_count = node_chunk_count(model);
-#pragma omp parallel for schedule(static) num_threads(scratch.threads)
-  for (int c = 0; c < chunk_count; ++c) {
-    double kinetic = 0, gravity_work = 0, damped = 0;
-    const int last = std::min((c + 1) * kNodesPerChunk, model.mesh.node_count());
-    for (int n = c * kNodesPerChunk; n < last; ++n) {
-      NodeRecord& node = state.nodes[n];
-      const Vec3 before = node.velocity();
-      Vec3 after = before;
-      if (node.inverse_mass > 0) {
-        after = keep * before + gain * (scratch.force[n] * node.inverse_mass + gravity);
-        kinetic += 0.5 * model.mass[n] * before.dot(after);
-        gravity_work += 0.5 * kick * model.mass[n] * gravity.dot(before + after);
-        damped += 0.25 * kick * damping * model.mass[n] * (before + after).squaredNorm();
-        node.set_velocity(after);
-        node.set_position(node.position() + dt * after);
-      }
-      if (model.has_rotations() && model.inertia[n] > 0) {
-        const Vec3 spin = state.spin[n];
-        state.spin[n] = keep * spin + gain / model.inertia[n] * scratch.moment[n];
-        kinetic += 0.5 * model.inertia[n] * spin.dot(state.spin[n]);
-      }
-    }
-    scratch.node_sums[c] = {kinetic, gravity_work, damped};
-  }
-  state.energies.kinetic = 0;
-  for (const auto& [kinetic, gravity_work, damped] : scratch.node_sums) {
-    state.energies.kinetic += kinetic;
-    state.energies.external_work += gravity_work;
-    state.energies.damping += damped;
-  }
-}
+/// Factors of a kick with mass damping alpha on the mean of both velocities, so that damping costs
+/// no stable step: v+ = keep v- + gain a.
+struct Kick {
+  double length, keep, gain;
+  Kick(double length_s, double alpha)
+      : length(length_s),
+        keep((1 - 0.5 * length_s * alpha) / (1 + 0.5 * length_s * alpha)),
+        gain(length_s / (1 + 0.5 * length_s * alpha)) {}
+};
 
 double guided_velocity(const GuidedNodes& guide, double time, double dt, double before) {
   switch (guide.kind) {
@@ -205,37 +175,78 @@ double guided_velocity(const GuidedNodes& guide, double time, double dt, double 
   return 0;
 }
 
-void remember_constrained(const Model& model, const State& state, Scratch& scratch) {
-  for (std::size_t i = 0; i < model.fixed.size(); ++i)
-    scratch.held[i] = state.nodes[model.fixed[i].node].position();
-  std::size_t k = 0;
+/// Adds the reactions that make constrained nodes do what they must; the work of guided ones is
+/// booked.
+void apply_constraints(const Model& model, State& state, Scratch& scratch, const Kick& kick,
+                       double dt) {
+  const Vec3& gravity = model.settings.gravity;
   for (const GuidedNodes& guide : model.guided)
-    for (int n : guide.nodes) scratch.guided_velocity[k++] = state.nodes[n].velocity();
-}
-
-void constrain_nodes(const Model& model, State& state, Scratch& scratch, double dt) {
+    for (int n : guide.nodes) {
+      const double before = state.nodes[n].velocity().dot(guide.direction);
+      const double wanted = guided_velocity(guide, state.time, dt, before);
+      const double needed = model.mass[n] * ((wanted - kick.keep * before) / kick.gain -
+                                             gravity.dot(guide.direction));
+      const double reaction = needed - scratch.force[n].dot(guide.direction);
+      scratch.force[n] += reaction * guide.direction;
+      state.energies.external_work += 0.5 * kick.length * reaction * (before + wanted);
+    }
   for (std::size_t i = 0; i < model.fixed.size(); ++i) {
     const FixedNode& fixed = model.fixed[i];
-    NodeRecord& node = state.nodes[fixed.node];
+    scratch.held[i] = state.nodes[fixed.node].position();
     for (int axis = 0; axis < 3; ++axis) {
-      if (fixed.translation[axis]) {
+      if (fixed.translation[axis])
+        scratch.force[fixed.node][axis] = -model.mass[fixed.node] * gravity[axis];
+      if (fixed.rotation[axis] && model.has_rotations()) scratch.moment[fixed.node][axis] = 0;
+    }
+  }
+}
+
+/// Takes the round-off out of fixed directions.
+void hold_fixed_nodes(const Model& model, State& state, const Scratch& scratch) {
+  for (std::size_t i = 0; i < model.fixed.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      if (model.fixed[i].translation[axis]) {
+        NodeRecord& node = state.nodes[model.fixed[i].node];
         node.v[axis] = 0;
         node.x[axis] = scratch.held[i][axis];
       }
-      if (fixed.rotation[axis] && model.has_rotations()) state.spin[fixed.node][axis] = 0;
-    }
-  }
-  std::size_t k = 0;
-  for (const GuidedNodes& guide : model.guided)
-    for (int n : guide.nodes) {
+}
+
+/// Kick and drift of the free nodes; constrained ones are put right afterwards.
+void integrate(const Model& model, State& state, Scratch& scratch, const Kick& kick, double dt) {
+  const Vec3 gravity = model.settings.gravity;
+  const double damping = model.settings.mass_damping;
+  const int chunk_count = node_chunk_count(model);
+#pragma omp parallel for schedule(static) num_threads(scratch.threads)
+  for (int c = 0; c < chunk_count; ++c) {
+    double kinetic = 0, gravity_work = 0, damped = 0;
+    const int last = std::min((c + 1) * kNodesPerChunk, model.mesh.node_count());
+    for (int n = c * kNodesPerChunk; n < last; ++n) {
       NodeRecord& node = state.nodes[n];
-      const double before = scratch.guided_velocity[k++].dot(guide.direction);
-      const double wanted = guided_velocity(guide, state.time, dt, before);
-      const double change = wanted - node.velocity().dot(guide.direction);
-      node.set_velocity(node.velocity() + change * guide.direction);
-      node.set_position(node.position() + dt * change * guide.direction);
-      state.energies.external_work += 0.5 * model.mass[n] * change * (before + wanted);
+      const Vec3 before = node.velocity();
+      Vec3 after = before;
+      if (node.inverse_mass > 0) {
+        after = kick.keep * before + kick.gain * (scratch.force[n] * node.inverse_mass + gravity);
+        kinetic += 0.5 * model.mass[n] * before.dot(after);
+        gravity_work += 0.5 * kick.length * model.mass[n] * gravity.dot(before + after);
+        damped += 0.25 * kick.length * damping * model.mass[n] * (before + after).squaredNorm();
+        node.set_velocity(after);
+        node.set_position(node.position() + dt * after);
+      }
+      if (model.has_rotations() && model.inertia[n] > 0) {
+        const Vec3 spin = state.spin[n];
+        state.spin[n] = kick.keep * spin + kick.gain / model.inertia[n] * scratch.moment[n];
+        kinetic += 0.5 * model.inertia[n] * spin.dot(state.spin[n]);
+      }
     }
+    scratch.node_sums[c] = {kinetic, gravity_work, damped};
+  }
+  state.energies.kinetic = 0;
+  for (const auto& [kinetic, gravity_work, damped] : scratch.node_sums) {
+    state.energies.kinetic += kinetic;
+    state.energies.external_work += gravity_work;
+    state.energies.damping += damped;
+  }
 }
 
 void move_nodes_of(const RigidBody& body, const BodyState& moved, double dt, State& state) {
@@ -305,9 +316,6 @@ Scratch::Scratch(const Model& model, int thread_count) : threads(thread_count) {
   body_wrench.resize(model.bodies.size());
   body_command.resize(model.bodies.size());
   held.resize(model.fixed.size());
-  std::size_t guided = 0;
-  for (const GuidedNodes& guide : model.guided) guided += guide.nodes.size();
-  guided_velocity.resize(guided);
   node_sums.resize(node_chunk_count(model));
 }
 
@@ -324,11 +332,11 @@ StepReport compute_forces(const Model& model, State& state, Scratch& scratch) {
 void move(const Model& model, State& state, Scratch& scratch, double dt) {
   // Velocities sit at mid-steps: the kick spans half of the last step and half of this one. The
   // very first one is a half kick, from the velocities at t = 0.
-  const double kick = 0.5 * (state.last_dt + dt);
-  remember_constrained(model, state, scratch);
+  const Kick kick(0.5 * (state.last_dt + dt), model.settings.mass_damping);
+  apply_constraints(model, state, scratch, kick, dt);
   integrate(model, state, scratch, kick, dt);
-  constrain_nodes(model, state, scratch, dt);
-  move_bodies(model, state, scratch, kick, dt);
+  hold_fixed_nodes(model, state, scratch);
+  move_bodies(model, state, scratch, kick.length, dt);
   move_tied_nodes(model, state, dt);
   if (state.step == 0) {
     state.energies.initial = 0;

@@ -33,10 +33,9 @@ struct Scratch {
   ContactLoads contact_loads;
   std::vector<ContactReport> contact_reports;
   std::vector<BodyMotionView> body_views;
-  std::vector<Wrench> body_wrench;    ///< on each body about its origin, elements and contacts
-  std::vector<Twist> body_command;    ///< next twist of driven bodies; see move()
-  std::vector<Vec3> held;             ///< positions of fixed nodes before the move
-  std::vector<Vec3> guided_velocity;  ///< of guided nodes before the move
+  std::vector<Wrench> body_wrench;  ///< on each body about its origin, elements and contacts
+  std::vector<Twist> body_command;  ///< next twist of driven bodies; see move()
+  std::vector<Vec3> held;           ///< positions of fixed nodes before the move
   std::vector<std::array<double, 3>> node_sums;
 };
 

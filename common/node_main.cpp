@@ -1,12 +1,15 @@
 #include "common/node_main.h"
 
-#include <cstdio>
+#include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <new>
 #include <optional>
 
 #include <CLI/CLI.hpp>
 #include <omp.h>
+#include <sys/prctl.h>
+#include <unistd.h>
 
 #include "common/interrupt.h"
 #include "common/log.h"
@@ -27,6 +30,13 @@ struct RunOptions {
   bool is_verbose = false;
 };
 
+/// A process started by the launcher gets SIGTERM when the launcher dies, however that happens.
+void leave_with_launcher() {
+  const char* launcher = std::getenv("CROSSWALK_LAUNCHER");
+  if (launcher != nullptr && launcher == std::to_string(getppid()))
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+}
+
 ExitCode run(const NodeProgram& program, const RunOptions& options,
              const std::vector<std::string>& command) {
   const RunDirectory directory(options.out.empty() ? fs::path("runs") / options.run_id
@@ -35,6 +45,7 @@ ExitCode run(const NodeProgram& program, const RunOptions& options,
   open_log(program.name, directory.log(program.name),
            options.is_verbose ? LogLevel::Debug : LogLevel::Info);
   catch_interrupts();
+  leave_with_launcher();
   if (options.threads > 0) omp_set_num_threads(options.threads);
   ConfigDocument document(options.scenario);
   ignore_tables_of_others(document, program.name);

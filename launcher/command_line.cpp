@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 
 #include "common/version.h"
+#include "launcher/check_command.h"
 #include "launcher/handover.h"
+#include "launcher/run_command.h"
+#include "launcher/spy_command.h"
 
 namespace crosswalk {
 
@@ -33,6 +36,34 @@ std::string handover_help() {
   hand_over("ctest", arguments);
 }
 
+CLI::App* define_run(CLI::App& app, RunRequest& request) {
+  CLI::App* run =
+      app.add_subcommand("run", "Run a scenario: all processes, to the table of results.");
+  run->add_option("scenario", request.scenario, "Name under scenarios/tests/, or a file")
+      ->required();
+  run->add_option("--mode", request.mode, "coupled or multibody; as the scenario says by default")
+      ->check(CLI::IsMember({"coupled", "multibody"}));
+  run->add_option("--fidelity", request.fidelity, "Mesh of the generated model")
+      ->check(CLI::IsMember({"coarse", "medium", "fine"}));
+  run->add_option("--until-ms", request.until_ms, "End, simulated ms after first contact")
+      ->check(CLI::PositiveNumber);
+  run->add_option("--out", request.out, "Run folder; runs/<name>-<time> by default");
+  run->add_option("--threads", request.threads, "Threads of the finite-element solver")
+      ->check(CLI::Range(1, 256));
+  run->add_option("--lcm-url", request.url, "LCM URL; by default one UDP port per run");
+  run->add_option("--wait-s", request.wait_s, "Patience until every process has joined, s")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  run->add_flag("--isolate", request.is_isolated, "Keep the messages in a private network");
+  return run;
+}
+
+std::vector<std::string> command_words(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {"crosswalk"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
 }  // namespace
 
 ExitCode launcher_main(const std::vector<std::string>& arguments) {
@@ -46,15 +77,31 @@ ExitCode launcher_main(const std::vector<std::string>& arguments) {
                "crosswalk");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
-  app.footer(handover_help());
+  std::function<ExitCode()> action;
+  RunRequest request;
+  define_run(app, request)->callback([&] {
+    action = [&] { return run_command(request, command_words(arguments)); };
+  });
+  std::string file, run;
+  CLI::App* check = app.add_subcommand("check", "Report every mistake in a scenario or a deck.");
+  check->add_option("file", file, "Name under scenarios/tests/, scenario file or keyword deck")
+      ->required();
+  check->callback([&] { action = [&] { return check_command(file); }; });
+  app.add_subcommand("keys", "Print every key a scenario may have, as Markdown.")->callback([&] {
+    action = keys_command;
+  });
+  CLI::App* spy = app.add_subcommand("spy", "Look at the messages of a running run (lcm-spy).");
+  spy->add_option("run", run, "Run folder; the newest running one by default");
+  spy->callback([&] { action = [&] { return spy_command(run); }; });
   app.add_subcommand("test", "Run the tests (./crosswalk test builds them first).");
+  app.footer(handover_help());  // after the subcommands, which would inherit it
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
   try {
     app.parse(reversed);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? ExitCode::Done : ExitCode::UserError;
   }
-  return ExitCode::Done;
+  return action ? action() : ExitCode::Done;
 }
 
 }  // namespace crosswalk

@@ -1,0 +1,170 @@
+#include "launcher/network.h"
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <net/if.h>
+#include <net/route.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace crosswalk {
+
+namespace {
+
+constexpr const char* kGroup = "239.255.76.67";  // LCM's default group
+constexpr int kProbeMs = 200;
+
+class Socket {
+ public:
+  explicit Socket(int type) : number_(socket(AF_INET, type | SOCK_CLOEXEC, 0)) {}
+  ~Socket() {
+    if (number_ >= 0) close(number_);
+  }
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+std::string failure(std::string_view what) {
+  return fmt::format("{}: {}", what, std::strerror(errno));
+}
+
+sockaddr* generic(sockaddr_in& address) { return reinterpret_cast<sockaddr*>(&address); }
+
+sockaddr_in address_of(in_addr_t host, int port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = host;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  return address;
+}
+
+/// Switches the loopback interface on.
+std::string raise_loopback(int socket_number) {
+  ifreq request{};
+  std::strcpy(request.ifr_name, "lo");
+  if (ioctl(socket_number, SIOCGIFFLAGS, &request) != 0) return failure("loopback interface");
+  request.ifr_flags = static_cast<short>(request.ifr_flags | IFF_UP | IFF_RUNNING | IFF_MULTICAST);
+  if (ioctl(socket_number, SIOCSIFFLAGS, &request) != 0) return failure("loopback interface");
+  return {};
+}
+
+/// ip route add 224.0.0.0/4 dev lo
+std::string add_multicast_route(int socket_number) {
+  char device[] = "lo";
+  sockaddr_in target = address_of(inet_addr("224.0.0.0"), 0);
+  sockaddr_in mask = address_of(inet_addr("240.0.0.0"), 0);
+  rtentry route{};
+  std::memcpy(&route.rt_dst, &target, sizeof target);
+  std::memcpy(&route.rt_genmask, &mask, sizeof mask);
+  route.rt_flags = RTF_UP;
+  route.rt_dev = device;
+  if (ioctl(socket_number, SIOCADDRT, &route) != 0 && errno != EEXIST)
+    return failure("multicast route");
+  return {};
+}
+
+bool write_file(const char* path, const std::string& text) {
+  std::ofstream file(path);
+  file << text << std::flush;
+  return file.good();
+}
+
+/// Own user id inside the new user namespace, so that files keep their owner.
+std::string map_user(uid_t user, gid_t group) {
+  write_file("/proc/self/setgroups", "deny");  // absent on kernels that do not ask for it
+  if (!write_file("/proc/self/uid_map", fmt::format("{0} {0} 1", user)) ||
+      !write_file("/proc/self/gid_map", fmt::format("{0} {0} 1", group)))
+    return failure("user namespace");
+  return {};
+}
+
+}  // namespace
+
+std::string multicast_defect() {
+  const Socket receiver(SOCK_DGRAM), sender(SOCK_DGRAM);
+  sockaddr_in any = address_of(htonl(INADDR_ANY), 0);
+  if (bind(receiver.number(), generic(any), sizeof any) != 0) return failure("bind");
+  socklen_t size = sizeof any;
+  getsockname(receiver.number(), generic(any), &size);
+  ip_mreq membership{};
+  membership.imr_multiaddr.s_addr = inet_addr(kGroup);
+  if (setsockopt(receiver.number(), IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership,
+                 sizeof membership) != 0)
+    return failure("joining the multicast group");
+  const unsigned char ttl = 0, loop = 1;
+  setsockopt(sender.number(), IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof ttl);
+  setsockopt(sender.number(), IPPROTO_IP, IP_MULTICAST_LOOP, &loop, sizeof loop);
+  sockaddr_in group = address_of(inet_addr(kGroup), ntohs(any.sin_port));
+  const int token = getpid();
+  if (sendto(sender.number(), &token, sizeof token, 0, generic(group), sizeof group) < 0)
+    return failure("sending to the multicast group");
+  pollfd wait{receiver.number(), POLLIN, 0};
+  int answer = 0;
+  while (poll(&wait, 1, kProbeMs) > 0)
+    if (recv(receiver.number(), &answer, sizeof answer, 0) == sizeof answer && answer == token)
+      return {};
+  return "multicast datagrams do not come back";
+}
+
+bool is_udp_port_free(int port) {
+  const Socket probe(SOCK_DGRAM);
+  sockaddr_in any = address_of(htonl(INADDR_ANY), port);
+  return bind(probe.number(), generic(any), sizeof any) == 0;
+}
+
+std::string enter_private_network() {
+  const uid_t user = getuid();
+  const gid_t group = getgid();
+  if (unshare(CLONE_NEWNET) != 0) {
+    if (unshare(CLONE_NEWUSER | CLONE_NEWNET) != 0) return failure("private network namespace");
+    if (std::string defect = map_user(user, group); !defect.empty()) return defect;
+  }
+  const Socket control(SOCK_DGRAM);
+  if (std::string defect = raise_loopback(control.number()); !defect.empty()) return defect;
+  if (std::string defect = add_multicast_route(control.number()); !defect.empty()) return defect;
+  return multicast_defect();
+}
+
+namespace {
+
+/// Where the port's digits stand in a udpm URL; {npos, 0} when there are none.
+std::pair<std::size_t, std::size_t> port_digits(const std::string& url) {
+  constexpr std::string_view kScheme = "udpm://";
+  if (!url.starts_with(kScheme)) return {std::string::npos, 0};
+  const std::size_t end = std::min(url.find('?'), url.size());
+  const std::size_t colon = url.find(':', kScheme.size());
+  if (colon == std::string::npos || colon >= end) return {std::string::npos, 0};
+  return {colon + 1, end - colon - 1};
+}
+
+}  // namespace
+
+int port_of(const std::string& url) {
+  const auto [begin, length] = port_digits(url);
+  int port = 0;
+  if (begin != std::string::npos)
+    std::from_chars(url.data() + begin, url.data() + begin + length, port);
+  return port;
+}
+
+std::string url_with_port(const std::string& url, int port) {
+  const auto [begin, length] = port_digits(url);
+  if (begin == std::string::npos) return url;
+  return std::string(url).replace(begin, length, fmt::format("{}", port));
+}
+
+}  // namespace crosswalk

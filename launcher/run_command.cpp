@@ -1,0 +1,145 @@
+#include "launcher/run_command.h"
+
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "common/interrupt.h"
+#include "common/protocol.h"
+#include "launcher/check_command.h"
+#include "launcher/network.h"
+#include "launcher/supervisor.h"
+
+namespace crosswalk {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kPortsTried = 100;
+
+struct Transport {
+  std::string url;
+  bool is_private = false;
+};
+
+/// A URL on which the run's traffic works: multicast here, else in a private network.
+Transport open_network(const RunRequest& request, const std::string& run_id) {
+  Transport transport{request.url.empty() ? default_lcm_url(run_id) : request.url};
+  const bool is_multicast = transport.url.starts_with("udpm://");
+  if (!is_multicast && !request.is_isolated) return transport;
+  const std::string defect = request.is_isolated ? "" : multicast_defect();
+  if (request.is_isolated || !defect.empty()) {
+    const std::string obstacle = enter_private_network();
+    if (!obstacle.empty())
+      throw ProtocolError(
+          ExitCode::NoTransport,
+          fmt::format("no UDP multicast on this machine ({}) and no private network ({});\nas "
+                      "root:  ip link set lo up && ip route add 224.0.0.0/4 dev lo",
+                      defect.empty() ? "not asked" : defect, obstacle));
+    fmt::print("{}: this run uses a private network; `crosswalk spy` looks into it\n",
+               request.is_isolated ? "isolated" : "no multicast route here (" + defect + ")");
+    transport.is_private = true;
+  }
+  const int asked = port_of(transport.url);
+  for (int port = asked; port != 0 && port < asked + kPortsTried; ++port) {
+    if (is_udp_port_free(port)) {
+      if (port != asked) fmt::print("port {} is in use; this run takes {}\n", asked, port);
+      transport.url = url_with_port(transport.url, port);
+      return transport;
+    }
+    if (!request.url.empty()) {
+      fmt::print("port {} is in use by another process; messages of other runs are ignored\n",
+                 port);
+      return transport;
+    }
+  }
+  return transport;
+}
+
+/// Tells `crosswalk spy` where to look; there only while the run lives.
+class RunningMark {
+ public:
+  RunningMark(const RunDirectory& directory, const Transport& transport)
+      : file_(directory.root() / "running") {
+    std::ofstream(file_) << getpid() << ' ' << (transport.is_private ? "private" : "host") << ' '
+                         << transport.url << '\n';
+  }
+  ~RunningMark() {
+    std::error_code ignored;
+    fs::remove(file_, ignored);
+  }
+  RunningMark(const RunningMark&) = delete;
+  RunningMark& operator=(const RunningMark&) = delete;
+
+ private:
+  fs::path file_;
+};
+
+std::string size_text(std::uintmax_t bytes) {
+  if (bytes < 1000) return fmt::format("{} B", bytes);
+  if (bytes < 1000000) return fmt::format("{:.1f} kB", 1e-3 * static_cast<double>(bytes));
+  return fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes));
+}
+
+void print_file(const fs::path& file) {
+  std::ifstream in(file);
+  if (in) std::cout << in.rdbuf() << std::flush;
+}
+
+/// What a run that ended early leaves behind.
+void tell_what_was_kept(const RunDirectory& directory) {
+  std::string kept;
+  for (const fs::path& file : {directory.signals(), directory.channels(), directory.summary()})
+    if (std::error_code error; fs::exists(file, error))
+      kept +=
+          fmt::format("{} ({}), ", file.filename().string(), size_text(fs::file_size(file, error)));
+  fmt::print("kept in {}: {}logs/\n", directory.root().string(), kept);
+}
+
+}  // namespace
+
+ExitCode run_command(const RunRequest& request, const std::vector<std::string>& command) {
+  const fs::path file = find_scenario(request.scenario);
+  Scenario scenario;
+  const ConfigDocument document = load_scenario(file, request, scenario);
+  check_with_programs(file, programs_of(scenario));
+
+  const RunDirectory directory = make_run_directory(request.out, scenario.name);
+  const std::string run_id = fmt::format("{}-{}", directory.root().filename().string(), getpid());
+  std::ofstream(directory.scenario()) << document.resolved_text();
+  write_provenance(directory, run_id, scenario.digest, command);
+
+  const Transport transport = open_network(request, run_id);
+  fmt::print("{} ({}{}), {:g} ms from first contact, in {}\n", scenario.name,
+             name_of(scenario.mode),
+             scenario.has_fe() ? fmt::format(", {}", name_of(scenario.fidelity)) : "",
+             1e3 * scenario.duration_s, directory.root().string());
+  std::fflush(stdout);
+
+  const RunningMark mark(directory, transport);
+  catch_interrupts();
+  signal(SIGPIPE, SIG_IGN);
+  setenv("CROSSWALK_LAUNCHER", std::to_string(getpid()).c_str(), 1);
+  ProgressDisplay display(stdout, isatty(STDOUT_FILENO) != 0 ? ProgressDisplay::Style::Live
+                                                             : ProgressDisplay::Style::Plain);
+  Supervisor supervisor(process_specs(scenario, request, directory, run_id, transport.url),
+                        display);
+  const Verdict verdict = supervisor.run();
+  if (verdict.code == ExitCode::Done) {
+    print_file(directory.summary_text());
+    fmt::print("results: {}\n", directory.root().string());
+  } else {
+    fmt::print("crosswalk: {}\n", verdict.text);
+    tell_what_was_kept(directory);
+  }
+  std::fflush(stdout);
+  return verdict.code;
+}
+
+}  // namespace crosswalk

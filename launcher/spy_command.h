@@ -1,0 +1,13 @@
+// `crosswalk spy`: LCM's spy with our message types, on the traffic of a running run.
+#pragma once
+
+#include <string>
+
+#include "common/error.h"
+
+namespace crosswalk {
+
+/// `run`: a run folder; empty: the newest under runs/ that is running. Returns only by throwing.
+ExitCode spy_command(const std::string& run);
+
+}  // namespace crosswalk

@@ -5,46 +5,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "acking_recorder.h"
 #include "common/participant.h"
 #include "coupler/coupler.h"
 #include "coupler/lcm_link.h"
-#include "crosswalk/msg/coupling_audit.hpp"
 #include "crosswalk/msg/fe_done.hpp"
-#include "crosswalk/msg/recorder_ack.hpp"
 #include "toy_nodes.h"
 
 namespace crosswalk::coupling {
 namespace {
 
 using testing::HasSubstr;
-
-// Acknowledges audits, as the recorder would once they are on disk.
-class AckingRecorder : public NodeSession {
- public:
-  AckingRecorder(Bus& bus, NodeIdentity identity) : NodeSession(bus, std::move(identity), {}) {
-    bus.subscribe<msg::coupling_audit>(Role::Coupler, [this](const msg::coupling_audit& m) {
-      ++audits;
-      if (m.window % 16 == 0) acknowledge(m.window);
-      last_audit = m;
-    });
-  }
-  int audits = 0;
-  msg::coupling_audit last_audit{};
-
- private:
-  void acknowledge(std::int64_t window) {
-    msg::recorder_ack ack{};
-    ack.window = window;
-    bus_.publish(ack, 0);
-  }
-  void on_manifest(const msg::run_manifest&) override { acknowledge(-1); }
-  void on_control(const msg::run_control& control) override {
-    if (control.command != static_cast<int>(Command::Finish)) return;
-    msg::node_status done{};
-    done.state = static_cast<int>(NodeState::Done);
-    bus_.publish(done, 0);
-  }
-};
 
 const NodeIdentity kMbIdentity{
     .scenario_digest = 7, .version = "1", .bodies = {"block"}, .n_attached = 1};
@@ -69,7 +40,7 @@ struct Fixture {
           [this](EventLevel, const std::string& text) { told.push_back(text); }};
   MbSession mb_session{mb_bus, mb, kMbIdentity, {}};
   FeSession fe_session{fe_bus, fe, kMbIdentity, {}};
-  AckingRecorder recorder{recorder_bus, kRecorderIdentity};
+  toy::AckingRecorder recorder{recorder_bus, kRecorderIdentity};
 
   void join() {
     const auto now = Bus::Clock::now();

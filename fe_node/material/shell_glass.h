@@ -1,0 +1,99 @@
+// Brittle pane in plane stress: elastic in total strain until the larger principal stress has stood
+// above the strength for the delay time; then a crack opens normal to it and the tension it can
+// carry fades linearly over the fading time. A closed crack carries compression. A second crack may
+// open at a right angle to the first. Nothing is deleted: the interlayer holds the shards.
+//
+// In the axes (n, t) of the first crack, with full plane-stress elasticity sigma_nn and sigma_tt,
+// each tension is capped by strength x (1 - time since fracture / fading time), and the stress of
+// one direction loses what the released stress of the other had put on it, nu times the release.
+// Strength, rate factor and delay after [pyttel2011] and [brokmann2023]; crack frame fixed in the
+// co-rotational frame.
+#pragma once
+
+#include "fe_node/material/shell_law.h"
+
+namespace crosswalk::fe {
+
+enum class GlassFracture { Off, Local };
+
+struct ShellGlass {
+  double density = 0;
+  double youngs_modulus = 0;
+  double poisson_ratio = 0;
+  double strength = 0;         ///< Pa, principal tension
+  double delay = 50e-6;        ///< s above the strength before a crack opens
+  double fading_time = 20e-6;  ///< s from full strength to none
+  GlassFracture fracture = GlassFracture::Local;
+
+  /// History: strain xx yy xy, crack direction (cos, sin), per crack the time above the strength
+  /// and, from its opening, the time since.
+  enum Slot { kXx, kYy, kXy, kCos, kSin, kAbove1, kSince1, kAbove2, kSince2, kSize };
+  int history_size() const { return kSize; }
+  template <class N>
+  void initialise(N* history) const {
+    for (int i = 0; i < kSize; ++i) history[i] = constant<N>(i == kCos ? 1 : 0);
+  }
+
+  template <class N>
+  PlaneAnswer<N> update(const PlaneStep<N>& step, N* history) const {
+    const N zero = constant<N>(0), one = constant<N>(1);
+    PlaneAnswer<N> answer = plane_elastic(youngs_modulus, poisson_ratio, step);
+    for (int i = 0; i < 3; ++i)
+      history[i] += i == 0 ? step.strain.xx : i == 1 ? step.strain.yy : step.strain.xy;
+    const double plane = youngs_modulus / (1 - poisson_ratio * poisson_ratio);
+    const double shear = 0.5 * youngs_modulus / (1 + poisson_ratio);
+    PlaneTensor<N>& s = answer.stress;
+    s.xx = plane * (history[kXx] + poisson_ratio * history[kYy]);
+    s.yy = plane * (history[kYy] + poisson_ratio * history[kXx]);
+    s.xy = shear * history[kXy];
+    if (fracture == GlassFracture::Off) return answer;
+
+    // until the first crack the frame follows the principal axes
+    const N mean = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
+    const N radius = square_root(N(half * half + s.xy * s.xy)) + 1e-300;
+    const N cosine2 = half / radius;
+    const N cosine = square_root(larger(N(0.5 * (1.0 + cosine2)), zero));
+    const N sine_size = square_root(larger(N(0.5 * (1.0 - cosine2)), zero));
+    const N sine = where_less(s.xy, zero, N(-sine_size), sine_size);
+    history[kCos] = where_less(zero, history[kSince1], history[kCos], cosine);
+    history[kSin] = where_less(zero, history[kSince1], history[kSin], sine);
+    const N c = history[kCos], d = history[kSin];
+    N nn = mean + half * (c * c - d * d) + 2.0 * s.xy * c * d;
+    N tt = 2.0 * mean - nn;
+    N nt = s.xy * (c * c - d * d) - 2.0 * half * c * d;
+
+    auto capacity = [&](int above, int since, const N& tension) -> N {
+      const N is_over = where_less(constant<N>(strength), tension, one, zero);
+      history[above] = is_over * (history[above] + step.dt);
+      const N opens = where_less(constant<N>(delay), history[above], one, zero);
+      const N is_open = where_less(zero, history[since], one, opens);
+      history[since] += is_open * step.dt;
+      const N left = larger(N(1.0 - history[since] * (1 / fading_time)), zero);
+      return where_less(zero, is_open, N(strength * left), constant<N>(1e300));
+    };
+    const N cap_n = capacity(kAbove1, kSince1, nn);
+    const N cap_t_raw = capacity(kAbove2, kSince2, tt);
+    const N cap_t = where_less(zero, history[kSince1], cap_t_raw, constant<N>(1e300));
+    history[kSince2] = where_less(zero, history[kSince1], history[kSince2], zero);
+
+    const N release_n = larger(N(nn - cap_n), zero);
+    const N release_t = larger(N(tt - cap_t), zero);
+    nn -= larger(release_n, N(poisson_ratio * release_t));
+    tt -= larger(release_t, N(poisson_ratio * release_n));
+    const N shear_cap = smaller(cap_n, cap_t);
+    // an open crack carries no more shear than it carries tension; a closed one keeps its shear
+    const N is_opening = where_less(zero, N(release_n + release_t), one, zero);
+    const N capped = larger(smaller(nt, shear_cap), N(-shear_cap));
+    nt = is_opening * capped + (1.0 - is_opening) * nt;
+
+    const N mean2 = 0.5 * (nn + tt), half2 = 0.5 * (nn - tt);
+    const N cc = c * c - d * d, ss = 2.0 * c * d;
+    s.xx = mean2 + half2 * cc - nt * ss;
+    s.yy = mean2 - half2 * cc + nt * ss;
+    s.xy = half2 * ss + nt * cc;
+    answer.thinning = (-poisson_ratio / (1 - poisson_ratio)) * (step.strain.xx + step.strain.yy);
+    return answer;
+  }
+};
+
+}  // namespace crosswalk::fe

@@ -1,0 +1,176 @@
+#include "fe_node/element/shell.h"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "fe_node/solver.h"
+#include "tests/fe_node/plate_model.h"
+
+namespace crosswalk::fe {
+namespace {
+
+constexpr double kYoungs = 70e9, kPoisson = 0.23, kThickness = 0.005;
+const ShellElastic kGlass{2500, kYoungs, kPoisson};
+
+/// Moves every inner node off its place in the plane.
+Vec3 skewed(const Vec3& p) {
+  return p + Vec3(0.05 * std::sin(9 * p.y() + 5 * p.x()), 0.06 * std::sin(8 * p.x()), 0) *
+                 (p.x() * (1 - p.x()) * p.y() * (1 - p.y()) > 1e-9 ? 1.0 : 0.0);
+}
+Vec3 doubly_curved(const Vec3& p) {
+  return {p.x(), p.y(), 0.2 * p.x() * p.y() - 0.1 * p.x() * p.x()};
+}
+
+class EveryShell : public testing::TestWithParam<ElementKind> {
+ protected:
+  Plate plate(int nx, int ny) const { return {nx, ny, 1, 1, GetParam()}; }
+};
+
+TEST_P(EveryShell, RigidMotionGivesNoLoad) {
+  const Plate shape = plate(4, 4);
+  Model model = plate_model(shape, uniform_section(kGlass, kThickness, 3), {}, doubly_curved);
+  const double per_strain = kYoungs * kThickness;  // N/m
+  PlateMotion motion = still(model);
+  // The spin that belongs to a chord of the rotation is 2 tan(a/2), third order away from a.
+  for (const Vec3& w : {Vec3(0, 0, 0.4), Vec3(0.3, -0.5, 0.2)}) {
+    const Mat3 R = exp_rotation(w).toRotationMatrix();
+    for (int n = 0; n < model.mesh.node_count(); ++n) {
+      const Vec3& p = model.mesh.position[n];
+      motion.displacement[n] = R * p - p + Vec3(0.1, 0.2, 0.3);
+      motion.rotation[n] = 2 * std::tan(0.5 * w.norm()) * w.normalized();
+    }
+    for (const Vec3& f : loads_after(model, motion).force) EXPECT_LT(f.norm(), 1e-14 * per_strain);
+  }
+}
+
+TEST_P(EveryShell, MembranePatchCarriesConstantStress) {
+  const Plate shape = plate(4, 4);
+  Model model = plate_model(shape, uniform_section(kGlass, kThickness, 3), {}, skewed);
+  PlateMotion motion = still(model);
+  Mat3 L = Mat3::Zero();
+  L(0, 0) = 1e-6, L(0, 1) = 2e-6, L(1, 0) = 0.5e-6, L(1, 1) = -0.7e-6;
+  for (int n = 0; n < model.mesh.node_count(); ++n)
+    motion.displacement[n] = L * model.mesh.position[n];
+  const NodalLoads loads = loads_after(model, motion);
+  for (int j = 1; j < 4; ++j)
+    for (int i = 1; i < 4; ++i)
+      // second order in the strain of 1e-6
+      EXPECT_LT(loads.force[shape.node(i, j)].norm(), 2e-6 * kYoungs * kThickness * 1e-6);
+  // Edge x = 0 pulls with N_xx per length; its inner nodes own a quarter of it each.
+  const double nxx = kYoungs / (1 - kPoisson * kPoisson) * (1e-6 - kPoisson * 0.7e-6) * kThickness;
+  double edge = 0;
+  for (int j = 0; j <= 4; ++j) edge += loads.force[shape.node(0, j)].x();
+  EXPECT_NEAR(edge, nxx, 1e-5 * nxx);
+}
+
+// On parallelograms; the one-point quadrilateral does not hold this patch on other shapes.
+TEST_P(EveryShell, BendingPatchCarriesConstantMoment) {
+  const Plate shape = plate(4, 4);
+  Model model = plate_model(shape, uniform_section(kGlass, kThickness, 3), {},
+                            [](const Vec3& p) { return Vec3(p.x() + 0.3 * p.y(), p.y(), 0); });
+  PlateMotion motion = still(model);
+  // w = k y^2 / 2 gives theta_x = k y: the moment -D k acts on the edges and no shear anywhere.
+  const double k = 1e-6;
+  for (int n = 0; n < model.mesh.node_count(); ++n) {
+    const double y = model.mesh.position[n].y();
+    motion.displacement[n].z() = 0.5 * k * y * y;
+    motion.rotation[n].x() = k * y;
+  }
+  const NodalLoads loads = loads_after(model, motion);
+  const double D = kYoungs * std::pow(kThickness, 3) / (12 * (1 - kPoisson * kPoisson));
+  double edge = 0;
+  for (int i = 0; i <= 4; ++i) edge += loads.moment[shape.node(i, 0)].x();
+  EXPECT_NEAR(edge, D * k, 1e-5 * D * k);
+  for (int j = 1; j < 4; ++j)
+    for (int i = 1; i < 4; ++i) {
+      EXPECT_LT(loads.moment[shape.node(i, j)].norm(), 1e-5 * D * k);
+      EXPECT_LT(std::abs(loads.force[shape.node(i, j)].z()), 1e-5 * D * k);
+    }
+}
+
+TEST_P(EveryShell, LoadsOfAnyMotionHaveNoResultantAndNoMoment) {
+  Model model = plate_model(plate(3, 3), uniform_section(kGlass, kThickness, 3), {}, doubly_curved);
+  PlateMotion motion = still(model);
+  for (int n = 0; n < model.mesh.node_count(); ++n) {
+    motion.displacement[n] = 1e-3 * Vec3(std::sin(7 * n), std::sin(11 * n), std::sin(13 * n));
+    motion.rotation[n] = 1e-2 * Vec3(std::sin(5 * n), std::sin(17 * n), std::sin(3 * n));
+  }
+  const NodalLoads loads = loads_after(model, motion);
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  double scale = 0;
+  for (int n = 0; n < model.mesh.node_count(); ++n) {
+    force += loads.force[n];
+    moment +=
+        (model.mesh.position[n] + motion.displacement[n]).cross(loads.force[n]) + loads.moment[n];
+    scale += loads.force[n].norm();
+  }
+  EXPECT_LT(force.norm(), 1e-13 * scale);
+  EXPECT_LT(moment.norm(), 1e-12 * scale);  // the plate is 1 m
+}
+
+// The element's own estimate against the exact largest frequency of its stiffness and mass.
+TEST_P(EveryShell, StableStepIsBelowTheExactOneAndNotWasteful) {
+  for (const double thickness : {0.002, 0.1, 0.4}) {
+    Plate shape = plate(1, 1);
+    Model model = plate_model(shape, uniform_section(kGlass, thickness, 3), {}, [](const Vec3& p) {
+      return Vec3(p.x() + 0.2 * p.y(), 0.7 * p.y(), 0);
+    });
+    model.finish();
+    const int nodes = model.mesh.node_count(), size = 6 * nodes;
+    Eigen::MatrixXd K(size, size);
+    Eigen::VectorXd mass(size);
+    for (int column = 0; column < size; ++column) {
+      PlateMotion motion = still(model);
+      const double h = 1e-9;
+      (column % 6 < 3 ? motion.displacement : motion.rotation)[column / 6][column % 3] = h;
+      const NodalLoads loads = loads_after(model, motion);
+      for (int row = 0; row < size; ++row)
+        K(row, column) = -(row % 6 < 3 ? loads.force : loads.moment)[row / 6][row % 3] / h;
+      mass[column] = column % 6 < 3 ? model.mass[column / 6] : model.inertia[column / 6];
+    }
+    EXPECT_LT((K - K.transpose()).norm(), 1e-6 * K.norm());
+    const Eigen::VectorXd inverse_root = mass.cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd A =
+        inverse_root.asDiagonal() * (0.5 * (K + K.transpose())) * inverse_root.asDiagonal();
+    const double exact =
+        2 / std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues().maxCoeff());
+    const double estimate = initial_stable_step(model);
+    EXPECT_LE(estimate, exact * (1 + 1e-6)) << thickness;
+    EXPECT_GE(estimate, 0.6 * exact) << thickness;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shell, EveryShell, testing::Values(ElementKind::Quad4, ElementKind::Tri3),
+                         [](const auto& item) { return std::string(name(item.param)); });
+
+TEST(ShellSection, RulesIntegrateBendingExactly) {
+  auto second_moment = [](const ShellSection& section) {
+    double sum = 0;
+    for (const ShellPoint& p : section.layers[0].points) sum += p.weight * p.position * p.position;
+    return sum;
+  };
+  for (int points = 2; points <= 5; ++points)
+    EXPECT_NEAR(second_moment(uniform_section(kGlass, 1, points)), 1.0 / 12, 1e-15);
+  for (int points = 3; points <= 10; ++points)
+    EXPECT_NEAR(second_moment(uniform_section(kGlass, 1, points, ThicknessRule::Lobatto)), 1.0 / 12,
+                1e-15);
+}
+
+TEST(ShellSection, BondedLaminateHasTheBendingStiffnessOfTheSum) {
+  const ShellElastic core{1100, 1, 0};  // as good as nothing
+  const double t = 2.1e-3, core_t = 0.76e-3;
+  const ShellSection section = laminate({{kGlass, t, 2}, {core, core_t, 1}, {kGlass, t, 2}});
+  EXPECT_NEAR(section.density() * section.thickness, 11.336, 1e-3);
+  double stiffness = 0;
+  for (const ShellLayer& layer : section.layers)
+    for (const ShellPoint& p : layer.points) {
+      const double E = std::get<ShellElastic>(layer.law).youngs_modulus;
+      stiffness += p.weight * section.thickness * E / (1 - kPoisson * kPoisson) *
+                   std::pow(p.position * section.thickness, 2);
+    }
+  // E ((2 t + c)^3 - c^3) / 12 (1 - nu^2)
+  EXPECT_NEAR(stiffness, 748.9 - 0.0, 3.0);
+}
+
+}  // namespace
+}  // namespace crosswalk::fe

@@ -243,7 +243,7 @@ struct VariableLayout {
 constexpr int kHash = 8, kHeader = 28;
 constexpr VariableLayout kVariableLayouts[] = {
     {MessageKind::NodeHello, kHash + kHeader + 28, kHash + kHeader + 20, 2},
-    {MessageKind::RunManifest, kHash + kHeader + 40, kHash + kHeader + 32, 2},
+    {MessageKind::RunManifest, kHash + kHeader + 48, kHash + kHeader + 40, 2},
     {MessageKind::RunControl, kHash + kHeader + 20, -1, 1},
     {MessageKind::RunEvent, kHash + kHeader + 12, -1, 1},
     {MessageKind::NodeDescription, kHash + kHeader + 8, -1, 1},

@@ -37,13 +37,15 @@ int resident_memory_mb() {
   return static_cast<int>(resident * sysconf(_SC_PAGESIZE) >> 20);
 }
 
-NodeSession::NodeSession(Bus& bus, NodeIdentity identity, Limits limits)
+NodeSession::NodeSession(Bus& bus, NodeIdentity identity, Limits limits,
+                         std::filesystem::path checkpoints)
     : bus_(bus),
       identity_(std::move(identity)),
       limits_(limits),
       records_(bus),
       started_(Bus::Clock::now()),
-      coupler_heard_(started_) {
+      coupler_heard_(started_),
+      checkpoints_(std::move(checkpoints)) {
   bus_.subscribe<msg::run_manifest>(Role::Coupler, [this](const msg::run_manifest& manifest) {
     if (manifest_ && !is_from_my_coupler(manifest.h)) return;  // one coupler per run
     if (!manifest_) {
@@ -130,9 +132,25 @@ msg::node_status NodeSession::status() const {
   m.window = window_;
   m.progress = progress();
   m.n_records = records_.count();
+  m.checkpoint = checkpoint_;
   m.dropped = bus_.dropped();
   m.rss_mb = resident_memory_mb();
   return m;
+}
+
+void NodeSession::write_checkpoint(CheckpointPart part) {
+  if (checkpoint_ != part.window) {
+    records_.flush();
+    part.n_records = records_.count();
+    write_part(checkpoints_, bus_.role(), part);
+    checkpoint_ = part.window;
+  }
+  bus_.publish(status(), -1);
+}
+
+std::optional<CheckpointPart> NodeSession::part_to_continue_from() const {
+  if (!manifest_ || manifest_->first_window == 0) return std::nullopt;
+  return read_part(checkpoints_, bus_.role(), manifest_->first_window);
 }
 
 void NodeSession::tick(Bus::Clock::time_point now) {

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "common/bus.h"
+#include "common/checkpoint.h"
 #include "common/error.h"
 #include "common/record_stream.h"
 #include "crosswalk/msg/node_status.hpp"
@@ -55,7 +57,9 @@ class NodeSession {
     double coupler_silent_s = 15;  ///< without a sign of the coupler while waiting for it
   };
 
-  NodeSession(Bus& bus, NodeIdentity identity, Limits limits);
+  /// `checkpoints`: folder for this process's parts; empty: it writes none.
+  NodeSession(Bus& bus, NodeIdentity identity, Limits limits,
+              std::filesystem::path checkpoints = {});
   virtual ~NodeSession() = default;
   NodeSession(const NodeSession&) = delete;
   NodeSession& operator=(const NodeSession&) = delete;
@@ -73,8 +77,8 @@ class NodeSession {
  protected:
   /// The first manifest, and each repetition of it.
   virtual void on_manifest(const msg::run_manifest& manifest) = 0;
-  /// Start, Finish, Checkpoint from the run's coupler (Refuse, Abort and Stop are dealt with here). On
-  /// Finish the records are complete and the state is Done before this is called.
+  /// Start, Finish, Checkpoint from the run's coupler (Refuse, Abort and Stop are dealt with here).
+  /// On Finish the records are complete and the state is Done before this is called.
   virtual void on_control(const msg::run_control& control);
   /// Messages lost by the recorder: a stream other than the records.
   virtual void on_resend(const msg::resend_request& request);
@@ -90,6 +94,10 @@ class NodeSession {
   void heard_coupler() { coupler_heard_ = Bus::Clock::now(); }
   void leave(ExitCode code, std::string reason = {});
   void set_state(NodeState state, std::int64_t window);
+  /// Writes this process's part of the checkpoint, once, and tells so.
+  void write_checkpoint(CheckpointPart part);
+  /// The part of the checkpoint the manifest asks to continue from; nothing for a fresh run.
+  std::optional<CheckpointPart> part_to_continue_from() const;
 
   Bus& bus_;
 
@@ -108,6 +116,8 @@ class NodeSession {
   std::int64_t hellos_ = 0;
   std::atomic<int> state_{static_cast<int>(NodeState::Joining)};
   std::atomic<std::int64_t> window_{-1};
+  std::filesystem::path checkpoints_;
+  std::atomic<std::int64_t> checkpoint_{-1};
 };
 
 /// Resident memory of this process in MB.

@@ -18,9 +18,15 @@ void GrantLedger::executed(std::int64_t seq, std::vector<std::byte> answer) {
   answers_.push_back(std::move(answer));
 }
 
+void GrantLedger::continue_from(std::int64_t last_seq) {
+  last_ = last_seq;
+  before_ = last_seq + 1;
+  answers_.clear();
+}
+
 const std::vector<std::byte>* GrantLedger::answer(std::int64_t seq) const {
-  if (seq < 0 || seq >= static_cast<std::int64_t>(answers_.size())) return nullptr;
-  return &answers_[static_cast<std::size_t>(seq)];
+  if (seq < before_ || seq > last_) return nullptr;
+  return &answers_[static_cast<std::size_t>(seq - before_)];
 }
 
 namespace {
@@ -42,6 +48,16 @@ void resend_answers(Bus& bus, MessageKind kind, const GrantLedger& ledger,
     if (answer == nullptr) return;
     bus.send(kind, *answer);
   }
+}
+
+// After the usual set-up, back to the state of the checkpoint.
+template <class Participant>
+void continue_run(Participant& participant, GrantLedger& ledger, RecordStream& records,
+                  const std::optional<CheckpointPart>& part) {
+  if (!part) return;
+  participant.load_state(part->state);
+  ledger.continue_from(part->last_seq);
+  records.continue_from(part->n_records);
 }
 
 std::string window_text(std::int64_t window, std::int64_t window_ns) {
@@ -71,8 +87,9 @@ template <class Reply, class M>
 
 }  // namespace
 
-MbSession::MbSession(Bus& bus, MbParticipant& participant, NodeIdentity identity, Limits limits)
-    : NodeSession(bus, std::move(identity), limits),
+MbSession::MbSession(Bus& bus, MbParticipant& participant, NodeIdentity identity, Limits limits,
+                     std::filesystem::path checkpoints)
+    : NodeSession(bus, std::move(identity), limits, std::move(checkpoints)),
       participant_(participant),
       phased_(records()),
       bodies_(participant.interface_bodies()) {
@@ -81,9 +98,19 @@ MbSession::MbSession(Bus& bus, MbParticipant& participant, NodeIdentity identity
   bus.subscribe<msg::step_to_mb>(Role::Coupler, [this](const msg::step_to_mb& m) { on_grant(m); });
 }
 
-void MbSession::on_manifest(const msg::run_manifest&) {
-  if (records().count() == 0) records().describe(participant_.description());
+void MbSession::on_manifest(const msg::run_manifest& manifest) {
+  if (records().count() == 0) {
+    records().describe(participant_.description());
+    if (manifest.has_fe == 0)
+      continue_run(participant_, ledger_, records(), part_to_continue_from());
+  }
   bus_.publish(motion_message(bodies_), 0);
+}
+
+void MbSession::on_control(const msg::run_control& control) {
+  if (control.command == static_cast<int>(Command::Checkpoint)) {
+    write_checkpoint({control.window, ledger_.last(), 0, participant_.save_state()});
+  }
 }
 
 void MbSession::on_resend(const msg::resend_request& request) {
@@ -96,6 +123,7 @@ void MbSession::take_masses(const msg::boundary_mass& m) {
   if (!has_masses_) {
     read_mass(m, bodies_);
     participant_.attach(bodies_);
+    continue_run(participant_, ledger_, records(), part_to_continue_from());
     has_masses_ = true;
   }
   heard_coupler();
@@ -145,8 +173,9 @@ void MbSession::execute(const msg::step_to_mb& m) {
   set_state(NodeState::Waiting, m.window);
 }
 
-FeSession::FeSession(Bus& bus, FeParticipant& participant, NodeIdentity identity, Limits limits)
-    : NodeSession(bus, std::move(identity), limits),
+FeSession::FeSession(Bus& bus, FeParticipant& participant, NodeIdentity identity, Limits limits,
+                     std::filesystem::path checkpoints)
+    : NodeSession(bus, std::move(identity), limits, std::move(checkpoints)),
       participant_(participant),
       phased_(records()),
       bodies_(participant.interface_bodies()) {
@@ -155,6 +184,12 @@ FeSession::FeSession(Bus& bus, FeParticipant& participant, NodeIdentity identity
   bus.subscribe<msg::step_to_fe>(Role::Coupler, [this](const msg::step_to_fe& m) { on_grant(m); });
   for (const Role sender : {Role::Mb, Role::Coupler}) {
     bus.subscribe<msg::mobility>(sender, [this](const msg::mobility& m) { take_mobility(m); });
+  }
+}
+
+void FeSession::on_control(const msg::run_control& control) {
+  if (control.command == static_cast<int>(Command::Checkpoint)) {
+    write_checkpoint({control.window, ledger_.last(), 0, participant_.save_state()});
   }
 }
 
@@ -169,6 +204,7 @@ void FeSession::take_motion(const msg::boundary_motion& m) {
     read_motion(m, bodies_);
     bodies_ = participant_.place(std::move(bodies_));
     records().describe(participant_.description());
+    continue_run(participant_, ledger_, records(), part_to_continue_from());
     is_placed_ = true;
   }
   heard_coupler();

@@ -19,11 +19,14 @@ class GrantLedger {
   Verdict judge(std::int64_t seq) const;
   void executed(std::int64_t seq, std::vector<std::byte> answer);
   std::int64_t last() const { return last_; }
+  /// Continues the numbering of a checkpoint.
+  void continue_from(std::int64_t last_seq);
   /// All answers kept, by number: the recorder may have missed any of them.
   const std::vector<std::byte>* answer(std::int64_t seq) const;
 
  private:
   std::int64_t last_ = -1;
+  std::int64_t before_ = 0;  ///< number of the first answer kept
   std::vector<std::vector<std::byte>> answers_;
 };
 
@@ -47,10 +50,12 @@ class PhasedRecords {
 
 class MbSession : public NodeSession {
  public:
-  MbSession(Bus& bus, MbParticipant& participant, NodeIdentity identity, Limits limits);
+  MbSession(Bus& bus, MbParticipant& participant, NodeIdentity identity, Limits limits,
+            std::filesystem::path checkpoints = {});
 
  private:
   void on_manifest(const msg::run_manifest& manifest) override;
+  void on_control(const msg::run_control& control) override;
   void on_resend(const msg::resend_request& request) override;
   std::int64_t progress() const override { return participant_.progress(); }
   void take_masses(const msg::boundary_mass& m);
@@ -67,10 +72,12 @@ class MbSession : public NodeSession {
 
 class FeSession : public NodeSession {
  public:
-  FeSession(Bus& bus, FeParticipant& participant, NodeIdentity identity, Limits limits);
+  FeSession(Bus& bus, FeParticipant& participant, NodeIdentity identity, Limits limits,
+            std::filesystem::path checkpoints = {});
 
  private:
   void on_manifest(const msg::run_manifest&) override {}
+  void on_control(const msg::run_control& control) override;
   void on_resend(const msg::resend_request& request) override;
   std::int64_t progress() const override { return participant_.progress(); }
   void take_motion(const msg::boundary_motion& m);

@@ -76,10 +76,10 @@ void RecordStream::describe(const std::string& json) {
 
 void RecordStream::resend(std::int64_t first, std::int64_t last) {
   constexpr std::int64_t kAtOnce = 256;
-  first = std::max<std::int64_t>(first, 0);
+  first = std::max(first, before_);
   last = std::min({last, count() - 1, first + kAtOnce - 1});
   for (std::int64_t i = first; i <= last; ++i) {
-    const Kept& kept = kept_[static_cast<std::size_t>(i)];
+    const Kept& kept = kept_[static_cast<std::size_t>(i - before_)];
     bus_.send(kept.kind, kept.bytes);
   }
 }

@@ -34,6 +34,12 @@ class RecordStream : public RecordSink {
     count_.fetch_add(1, std::memory_order_release);
   }
 
+  /// Continues the numbering of a checkpoint; what came before is in the recorder's log.
+  void continue_from(std::int64_t n_records) {
+    before_ = n_records;
+    count_ = n_records;
+  }
+
   /// Records published so far; they are numbered 0 .. count() - 1. Any thread.
   std::int64_t count() const { return count_.load(std::memory_order_acquire); }
   /// Sends the records first .. last (those that exist) again, at most 256 of them.
@@ -47,6 +53,7 @@ class RecordStream : public RecordSink {
   Bus& bus_;
   msg::head_kinematics batch_{};
   std::deque<Kept> kept_;
+  std::int64_t before_ = 0;  ///< number of the first one kept
   std::atomic<std::int64_t> count_{0};
 };
 

@@ -1,0 +1,84 @@
+// One process's part of a checkpoint, a file RUN/checkpoints/<window>/<role>.state.
+//
+// A checkpoint is the set of all parts; the coupler owns it and names the latest complete one in
+// RUN/checkpoints/latest.json. Files are written aside and renamed, so that a part is there whole
+// or not at all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "common/protocol.h"
+
+namespace crosswalk {
+
+struct CheckpointPart {
+  std::int64_t window = 0;     ///< the next one to do
+  std::int64_t last_seq = -1;  ///< number of the last grant executed
+  std::int64_t n_records = 0;  ///< records published so far
+  std::vector<std::byte> state;
+};
+
+/// Throws ProtocolError{CheckpointMismatch} when the file cannot be written.
+void write_part(const std::filesystem::path& checkpoints, Role role, const CheckpointPart& part);
+/// Throws ProtocolError{CheckpointMismatch} for a missing, damaged or foreign file.
+CheckpointPart read_part(const std::filesystem::path& checkpoints, Role role, std::int64_t window);
+/// Marks the checkpoint of `window` complete and removes the ones before it.
+void commit_checkpoint(const std::filesystem::path& checkpoints, std::int64_t window);
+/// The window of the latest complete checkpoint.
+std::optional<std::int64_t> latest_checkpoint(const std::filesystem::path& checkpoints);
+
+/// Plain values to bytes and back, in the order written.
+class ByteWriter {
+ public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), bytes, bytes + sizeof(T));
+  }
+  template <class T>
+  void put_all(const T* values, std::size_t n) {
+    put(static_cast<std::int64_t>(n));
+    const auto* bytes = reinterpret_cast<const std::byte*>(values);
+    bytes_.insert(bytes_.end(), bytes, bytes + n * sizeof(T));
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+class ByteReader {
+ public:
+  explicit ByteReader(const std::vector<std::byte>& bytes) : bytes_(bytes) {}
+  template <class T>
+  T get() {
+    T value;
+    copy(&value, sizeof(T));
+    return value;
+  }
+  template <class T>
+  std::vector<T> get_all() {
+    const auto n = get<std::int64_t>();
+    require(n >= 0 && static_cast<std::size_t>(n) <= bytes_.size() / sizeof(T));
+    std::vector<T> values(static_cast<std::size_t>(n));
+    copy(values.data(), values.size() * sizeof(T));
+    return values;
+  }
+  bool at_end() const { return at_ == bytes_.size(); }
+
+ private:
+  void copy(void* to, std::size_t n);
+  /// Throws ProtocolError{CheckpointMismatch} when false.
+  static void require(bool holds);
+
+  const std::vector<std::byte>& bytes_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace crosswalk

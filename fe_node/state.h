@@ -16,9 +16,10 @@ namespace crosswalk::fe {
 using LaneVector = std::vector<double, Eigen::aligned_allocator<double>>;
 
 struct State {
-  double time = 0;        ///< s
-  std::int64_t step = 0;  ///< steps done
-  double last_dt = 0;     ///< s, of the step that led here
+  double time = 0;         ///< s
+  std::int64_t step = 0;   ///< steps done
+  double last_dt = 0;      ///< s, of the step that led here
+  double stable_step = 0;  ///< s, unscaled, of the last force evaluation; 0 before the first
   std::vector<NodeRecord> nodes;
   std::vector<Vec3> spin;           ///< nodal angular velocity at t - dt/2; empty without shells
   std::vector<BodyState> bodies;    ///< like Model::bodies

@@ -73,12 +73,13 @@ struct ContactCardB {
 
 /// Optional card C
 struct ContactCardC {
-  int ignore = 0;  ///< IGAP... IGNORE is its second field
   int igap = 1;
-  double dprfac = 0, dtstif = 0;
-  double edge_factor = 0;
+  int ignore =
+      0;  ///< initial penetrations: 0 move nodes, 1 track and allow, 2 the same with warnings
+  double depth_reduction = 0, time_step_stiffness = 0;  ///< DPRFAC DTSTIF
+  double edge_scale = 0;                                ///< EDGEK
   double flange_angle = 0;
-  int shell_edge = 0;  ///< CID_RCF
+  DeckId output_axes;  ///< CID_RCF
   bool operator==(const ContactCardC&) const = default;
 };
 
@@ -103,5 +104,8 @@ struct Contact {
   Source source;
   bool operator==(const Contact&) const = default;
 };
+
+/// A contact of that keyword (without *CONTACT_), its kind and adjectives set, all else default.
+Contact contact_named(const std::string& keyword);
 
 }  // namespace crosswalk::fe

@@ -49,9 +49,9 @@ struct Control {
         orientation = 1, eroded_mass = 0;
     int user_storage = 0, user_friction = 0, bucket_steps = 0, interference = 0;
     double large_penetration = 0;
-    int self_thickness = 0, unused_1 = 0, tied_projection = 0;
+    int self_thickness = 0, eroded_step = 0, tied_projection = 0;
     double static_friction = 0, dynamic_friction = 0, decay = 0, viscous = 0, thickness = 0,
-           thickness_scale = 0, penalty_scale = 0, reserved = 0;
+           thickness_scale = 0, penalty_scale = 0;
     int ignore = 0, friction_energy = 0;
     std::vector<std::string> more_cards;  ///< later cards as text
     bool operator==(const ContactDefault&) const = default;
@@ -89,7 +89,6 @@ struct Control {
 struct DatabaseRequest {
   std::string keyword;  ///< "DATABASE_GLSTAT"
   double interval = 0;
-  std::vector<std::string> cards;  ///< all cards as text
   Source source;
   bool operator==(const DatabaseRequest&) const = default;
 };

@@ -1,8 +1,8 @@
 // Material cards as a keyword deck gives them: one struct per law, user units.
 //
 // Members follow the card's fields in the field's words; the card's own name stands in the comment.
-// Curve fields keep a sign where the manual gives the minus a meaning (CurveRef). A field whose
-// blank or zero means a default holds that default. `kNever` stands for the manual's 1e20.
+// Curve fields keep a sign where the manual gives the minus a meaning. A field whose blank or zero
+// means a default holds that default. `kNever` stands for the manual's 1e20.
 #pragma once
 
 #include <array>
@@ -98,23 +98,29 @@ struct LaminatedGlass {
 
 /// *MAT_FABRIC (034)
 struct Fabric {
-  double ea = 0, eb = 0, prba = 0, prab = 0, gab = 0;
-  double compression_off = 0;  ///< CSE
+  double ea = 0, eb = 0;      ///< Young's moduli along a and b
+  double prba = 0, prab = 0;  ///< Poisson ratios
+  double gab = 0;
+  double compression_off = 0;  ///< CSE 1: no compressive stress
   double liner_youngs = 0, liner_poisson = 0, liner_ratio = 0;
   double damping = 0;
-  double axes_option = 0, porosity_flc = 0, porosity_fac = 0, porous_area = 0, leakage_type = 0;
-  int form = 0;  ///< 0..4, 13, 14, -14 ...
-  double venting = 0, strain_restoration = 0;
-  double reference_birth = 0, initial_porosity = 0;
-  std::array<double, 3> a{}, v{}, d{};  ///< material axes
-  std::array<double, 2> cut{};          ///< X0 X1
-  double beta_deg = 0, reference_stress = 0;
-  std::int32_t load_a = 0, load_b = 0, shear_ab = 0;       ///< LCA LCB LCAB, curve or table
-  std::int32_t unload_a = 0, unload_b = 0, unload_ab = 0;  ///< LCUA LCUB LCUAB
-  double reload = 0;                                       ///< RL
-  std::int32_t warp_curve = 0;                             ///< LCAA, form -14
-  std::int32_t h_curve = 0;                                ///< H / LCBB, form -14
-  double extra_damping = 0, extra_option = 0;              ///< DT, ECOAT of that card
+  double axes_option = 0;  ///< AOPT
+  double leak_coefficient = 0, leak_area = 0, blocked_area = 0,
+         no_compression = 0;                       ///< FLC FAC ELA LNRC
+  int form = 0;                                    ///< 0..4, 13, 14, -14 ...
+  double leak_law = 0, stress_free_factor = 0;     ///< FVOPT TSRFAC
+  double reference_birth = 0, reference_area = 0;  ///< RGBRTH A0REF
+  std::array<double, 3> a{}, v{};                  ///< material axes
+  std::array<double, 2> cut{};                     ///< X0 X1
+  double angle_deg = 0, reference_stress = 0;      ///< BETA ISREFG
+  // Curve or table ids of |form| 4, 14, 24; a minus has a meaning of its own in the manual.
+  DeckId load_a, load_b, shear;             ///< LCA LCB LCAB
+  DeckId unload_a, unload_b, unload_shear;  ///< LCUA LCUB LCUAB
+  double reload = 0;                        ///< RL
+  // Card of the negative forms.
+  DeckId rate_a, rate_b;                   ///< LCAA LCBB
+  double hysteresis = 0, rate_cutoff = 0;  ///< H DT
+  double coat_youngs = 0, coat_strength = 0, coat_thickness = 0;
   bool operator==(const Fabric&) const = default;
 };
 
@@ -146,8 +152,9 @@ struct CableDiscreteBeam {
   double youngs = 0;  ///< > 0; < 0 would be a stiffness
   DeckId curve;       ///< engineering stress over strain; used instead of E
   double initial_force = 0, force_time = 0, ramp_time = 0;
-  int extra_card = 0;                                                    ///< IREAD > 1
-  double output = 0, hysteresis_time = 0, end_moment = 0, friction = 0;  ///< second card, kept
+  int extra_card = 0;                                      ///< IREAD > 1
+  double output = 0, start_time = 0, length_fraction = 0;  ///< card of IREAD > 1
+  double failure_strain = kNever, failure_force = kNever;
   bool operator==(const CableDiscreteBeam&) const = default;
 };
 
@@ -210,20 +217,24 @@ struct FuChangFoam {
   std::array<double, 5> d{};  ///< D0 N0 N1 N2 N3
   std::array<double, 6> c{};  ///< C0..C5
   double aij = 0, sij = 0, minimum_rate = 0, maximum_rate = 0, shape = 0;
-  double exponent = 0;       ///< EXPON
-  double failure_curve = 0;  ///< RIULD and rest of the fifth card
+  double exponent = 0, unloading = 0;  ///< EXPON RIULD
   bool operator==(const FuChangFoam&) const = default;
 };
 
-/// *MAT_SOFT_TISSUE (091)
+/// *MAT_SOFT_TISSUE (091), _VISCO (092)
 struct SoftTissue {
   std::array<double, 5> c{};
-  double bulk = 0, fiber_bulk = 0, straightened_stretch = 0;  ///< XK XLAM FANG as on the card
-  double fiber_angle_deg = 0, straight_stretch_0 = 0;
-  double failure_sf = 0, failure_sm = 0, failure_shear = 0;
-  std::array<double, 16> rest{};   ///< remaining fields in card order (axes, vectors)
-  std::array<double, 6> s{}, t{};  ///< viscous option (092)
+  double bulk = 0;              ///< XK
+  double straight_stretch = 0;  ///< XLAM, stretch at which the fibres are straight
+  double fiber_angle_deg = 0;   ///< FANG
+  double initial_stretch = 0;   ///< XLAM0
+  double failure_strength = 0, failure_matrix = 0, failure_shear = 0;
+  double axes_option = 0;
+  std::array<double, 6> axes{};  ///< AX..BZ
+  std::array<double, 3> local_fiber{};
+  int axes_change = 0;  ///< MACF
   bool is_viscous = false;
+  std::array<double, 6> s{}, t{};
   bool operator==(const SoftTissue&) const = default;
 };
 
@@ -231,7 +242,8 @@ struct SoftTissue {
 struct Spotweld {
   double youngs = 0, poisson = 0, yield = 0, hardening = 0, minimum_step = 0, failure_time = 0;
   double failure_strain = 0;
-  double nrr = 0, nrs = 0, nrt = 0, mrr = 0, mss = 0, mtt = 0, filter = 0;
+  std::array<double, 6> failure_resultants{};  ///< NRR NRS NRT MRR MSS MTT
+  double filter = 0;
   bool operator==(const Spotweld&) const = default;
 };
 
@@ -312,7 +324,7 @@ struct Seatbelt {
   DeckId load, unload;     ///< LLCID ULCID: force over strain
   double minimum_length = 0;
   double compression_off = 0, damping = 0;
-  double youngs = 0, area = 0, inertia = 0, torsion = 0, shear_area = 0;  ///< bending form
+  double youngs = 0;
   bool operator==(const Seatbelt&) const = default;
 };
 
@@ -357,9 +369,9 @@ struct SpringGeneralNonlinear {
 /// *MAT_SPRING_MAXWELL (S07)
 struct SpringMaxwell {
   double stiffness_short = 0, stiffness_long = 0, decay = 0;
-  double compression_limit = kNever;
-  double formulation = 0;  ///< TC FC COPT
-  double option = 0;
+  double compression_limit = kNever;  ///< FC, TC
+  double tension_limit = kNever;
+  double option = 0;  ///< COPT 0 strain, 1 force history
   bool operator==(const SpringMaxwell&) const = default;
 };
 

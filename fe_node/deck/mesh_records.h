@@ -116,7 +116,6 @@ struct MassElement {
 struct InertiaElement {
   DeckId id, node, axes;
   double ixx = 0, ixy = 0, ixz = 0, iyy = 0, iyz = 0, izz = 0, mass = 0;
-  DeckId part;
   Source source;
   bool operator==(const InertiaElement&) const = default;
 };

@@ -36,14 +36,13 @@ struct CurveFunction {
   bool operator==(const CurveFunction&) const = default;
 };
 
-/// *DEFINE_TABLE (curves of the deck that follow it) and *DEFINE_TABLE_2D (curve ids given)
+/// *DEFINE_TABLE (its curves follow it in the deck) and *DEFINE_TABLE_2D (curve ids given)
 struct DeckTable {
   DeckId id;
   std::string title;
   double scale = 1, offset = 0;
-  bool has_explicit_curves = false;  ///< _2D
-  std::vector<double> values;        ///< raw, before scale and offset
-  std::vector<DeckId> curves;        ///< one per value
+  std::vector<double> values;  ///< raw, before scale and offset
+  std::vector<DeckId> curves;  ///< one per value
   Source source;
   bool operator==(const DeckTable&) const = default;
 };
@@ -67,7 +66,6 @@ struct DeckSet {
   std::string solver;                  ///< "MECH" or blank
   std::vector<DeckId> ids;
   std::vector<std::pair<DeckId, DeckId>> ranges;  ///< GENERATE, inclusive
-  int increment = 1;                              ///< GENERATE_INCREMENT
   std::vector<GeneralEntry> general;
   std::vector<DeckId> added_sets;  ///< ADD
   Source source;

@@ -1,0 +1,109 @@
+// Names and the buck's motion from descriptions and messages (extract.h).
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "recorder/extract.h"
+#include "recorder/signal.h"
+
+namespace crosswalk::recording {
+
+namespace {
+
+using nlohmann::json;
+
+json described(const RunRecord& record, Role role) {
+  const auto found = record.description.find(role);
+  if (found == record.description.end()) return json::object();
+  json parsed = json::parse(found->second, nullptr, /*allow_exceptions=*/false);
+  return parsed.is_object() ? parsed : json::object();
+}
+
+std::vector<std::string> strings(const json& object, const char* key) {
+  std::vector<std::string> out;
+  if (!object.contains(key) || !object[key].is_array()) return out;
+  for (const json& item : object[key]) {
+    if (item.is_string()) out.push_back(item.get<std::string>());
+    if (item.is_object() && item.contains("name")) out.push_back(item["name"].get<std::string>());
+  }
+  return out;
+}
+
+std::optional<double> number(const json& object, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    if (object.contains(key) && object[key].is_number()) return object[key].get<double>();
+  }
+  return std::nullopt;
+}
+
+bool is_vehicle(const std::string& body) {
+  return body == "buck" || body == "car" || body == "vehicle" || body == "sedan_buck";
+}
+
+int vehicle_index(const std::vector<std::string>& bodies) {
+  const auto found = std::find_if(bodies.begin(), bodies.end(), is_vehicle);
+  return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
+}
+
+double seconds(std::int64_t t_ns) { return 1e-9 * static_cast<double>(t_ns); }
+
+}  // namespace
+
+RunNames run_names(const RunRecord& record) {
+  RunNames names;
+  const json mb = described(record, Role::Mb);
+  const json fe = described(record, Role::Fe);
+  names.bodies = strings(mb, "bodies");
+  names.contact_pairs = strings(mb, "contact_pairs");
+  names.regions = strings(fe, "regions");
+  if (mb.contains("head_body") && mb["head_body"].is_number_integer())
+    names.head_body = mb["head_body"];
+  if (!mb.contains("vehicle") || !mb["vehicle"].is_object()) return names;
+  const json& vehicle = mb["vehicle"];
+  names.vehicle_speed = number(vehicle, {"speed_mps", "speed_m_s", "speed"});
+  names.bumper_front_y = number(vehicle, {"front_y_m", "bumper_front_y_m"});
+  if (vehicle.contains("profile_m") && vehicle["profile_m"].is_array()) {
+    for (const json& point : vehicle["profile_m"]) {
+      if (point.is_array() && point.size() >= 2) names.profile.emplace_back(point[0], point[1]);
+    }
+  }
+  return names;
+}
+
+BuckMotion buck_motion(const RunRecord& record, const RunNames& names) {
+  BuckMotion buck;
+  const int interface = record.manifest ? vehicle_index(record.manifest->bodies) : -1;
+  if (interface >= 0 && !record.mb.empty()) {
+    for (const auto& [window, w] : record.mb) {
+      if (interface >= static_cast<int>(w.bodies.size())) continue;
+      const BodyMotion& motion = w.bodies[static_cast<std::size_t>(interface)];
+      buck.position.t.push_back(seconds(w.t_ns));
+      buck.position.y.push_back(motion.X_WB.p.y());
+      buck.velocity.y.push_back(motion.V_WB.v.y());
+    }
+    buck.source = "interface body of mb_done";
+  } else if (const int body = vehicle_index(names.bodies); body >= 0 && record.bodies.size() > 2) {
+    for (const auto& [t_ns, poses] : record.bodies) {
+      if (body >= static_cast<int>(poses.size())) continue;
+      buck.position.t.push_back(seconds(t_ns));
+      buck.position.y.push_back(poses[static_cast<std::size_t>(body)].p.y());
+    }
+    buck.velocity.y = derivative(buck.position.t, buck.position.y);
+    buck.source = "body_states";
+  } else if (names.vehicle_speed && !record.mb.empty()) {
+    for (const std::int64_t t_ns : {std::int64_t{0}, record.mb.rbegin()->second.t_ns}) {
+      buck.position.t.push_back(seconds(t_ns));
+      buck.position.y.push_back(*names.vehicle_speed * seconds(t_ns));
+      buck.velocity.y.push_back(*names.vehicle_speed);
+    }
+    buck.source = "constant speed of the vehicle's description";
+  }
+  buck.velocity.t = buck.position.t;
+  if (!buck.position.y.empty()) {
+    const double start = buck.position.y.front();
+    for (double& y : buck.position.y) y -= start;
+  }
+  return buck;
+}
+
+}  // namespace crosswalk::recording

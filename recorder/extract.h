@@ -23,8 +23,6 @@ namespace crosswalk::recording {
 struct RunNames {
   std::vector<std::string> bodies, contact_pairs, regions;
   int head_body = -1;
-  /// Centre-line profile of the vehicle, metres behind the foremost point and above ground.
-  std::vector<std::pair<double, double>> profile;
   std::optional<double> vehicle_speed;   ///< m/s, along +y, constant, when the description says so
   std::optional<double> bumper_front_y;  ///< m, of the foremost point at t = 0
 };
@@ -38,6 +36,12 @@ struct BuckMotion {
   bool empty() const { return position.t.empty(); }
 };
 BuckMotion buck_motion(const RunRecord& record, const RunNames& names);
+
+/// Origin of the buck frame (on the ground under the foremost point) in W at a simulated time (s),
+/// when a body's pose tells it.
+std::optional<Vec3> buck_origin_at(const RunRecord& record, const RunNames& names, double t);
+/// Head COG in W at the sample nearest to a simulated time (s).
+std::optional<Vec3> head_position_at(const RunRecord& record, double t);
 
 struct HeadContact {
   double time = 0;            ///< s after t0, first head-vehicle force above 50 N

@@ -1,5 +1,6 @@
 // Names and the buck's motion from descriptions and messages (extract.h).
 #include <algorithm>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -61,12 +62,6 @@ RunNames run_names(const RunRecord& record) {
   if (!mb.contains("vehicle") || !mb["vehicle"].is_object()) return names;
   const json& vehicle = mb["vehicle"];
   names.vehicle_speed = number(vehicle, {"speed_mps", "speed_m_s", "speed"});
-  names.bumper_front_y = number(vehicle, {"front_y_m", "bumper_front_y_m"});
-  if (vehicle.contains("profile_m") && vehicle["profile_m"].is_array()) {
-    for (const json& point : vehicle["profile_m"]) {
-      if (point.is_array() && point.size() >= 2) names.profile.emplace_back(point[0], point[1]);
-    }
-  }
   return names;
 }
 
@@ -104,6 +99,36 @@ BuckMotion buck_motion(const RunRecord& record, const RunNames& names) {
     for (double& y : buck.position.y) y -= start;
   }
   return buck;
+}
+
+std::optional<Vec3> buck_origin_at(const RunRecord& record, const RunNames& names, double t) {
+  const auto t_ns = static_cast<std::int64_t>(std::llround(1e9 * t));
+  if (const int i = record.manifest ? vehicle_index(record.manifest->bodies) : -1; i >= 0) {
+    for (const auto& [window, w] : record.mb) {
+      if (w.t_ns >= t_ns && i < static_cast<int>(w.bodies.size())) {
+        return w.bodies[static_cast<std::size_t>(i)].X_WB.p;
+      }
+    }
+  }
+  const int body = vehicle_index(names.bodies);
+  const auto after = record.bodies.lower_bound(t_ns);
+  if (body < 0 || after == record.bodies.end() || after == record.bodies.begin())
+    return std::nullopt;
+  const auto before = std::prev(after);
+  if (body >= static_cast<int>(std::min(before->second.size(), after->second.size()))) {
+    return std::nullopt;
+  }
+  const double share =
+      static_cast<double>(t_ns - before->first) / static_cast<double>(after->first - before->first);
+  const Vec3& from = before->second[static_cast<std::size_t>(body)].p;
+  const Vec3& to = after->second[static_cast<std::size_t>(body)].p;
+  return from + share * (to - from);
+}
+
+std::optional<Vec3> head_position_at(const RunRecord& record, double t) {
+  const auto found = record.head.lower_bound(static_cast<std::int64_t>(std::llround(1e9 * t)));
+  if (found == record.head.end()) return std::nullopt;
+  return found->second.X_WH.p;
 }
 
 }  // namespace crosswalk::recording

@@ -201,7 +201,7 @@ void RecordBuilder::Impl::take(const msg::coupling_audit& m) {
   a.t_ns = m.t_ns;
   a.iterations = m.iterations;
   a.resends = m.resends;
-  a.wait_us = m.wait_us;
+  a.wall_us = m.wall_us;
   a.residual = m.residual;
   a.work_mb = m.work_mb;
   a.work_fe = m.work_fe;

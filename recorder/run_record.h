@@ -55,7 +55,7 @@ struct FeWindow {
 
 struct AuditWindow {
   std::int64_t t_ns = 0;
-  int iterations = 0, resends = 0, wait_us = 0;
+  int iterations = 0, resends = 0, wall_us = 0;
   double residual = 0;
   double work_mb = 0, work_fe = 0, exchanged = 0, drift = 0;         ///< J
   double total_energy = 0, external_work = 0, balance_error = 0;     ///< J

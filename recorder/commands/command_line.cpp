@@ -25,9 +25,9 @@ struct Parsed {
   throw UserError(problem);
 }
 
-}  // namespace
+using Action = std::function<ExitCode()>;
 
-std::function<ExitCode()> define_rate(CLI::App& app) {
+Action define_rate(CLI::App& app) {
   auto parsed = std::make_shared<Parsed<RateRequest>>();
   RateRequest& r = parsed->request;
   app.add_option("method", r.method, "cora or iso18571")
@@ -55,7 +55,7 @@ std::function<ExitCode()> define_rate(CLI::App& app) {
   };
 }
 
-std::function<ExitCode()> define_injury(CLI::App& app) {
+Action define_injury(CLI::App& app) {
   auto parsed = std::make_shared<Parsed<InjuryRequest>>();
   app.add_option("source", parsed->request.source,
                  "CSV of head signals (columns t,ax,ay,az and more), or a run")
@@ -65,6 +65,25 @@ std::function<ExitCode()> define_injury(CLI::App& app) {
   return [parsed] {
     return reported(parsed->form(), [&parsed] { return injury(parsed->request, parsed->form()); });
   };
+}
+
+Action define_analyze(CLI::App& app) {
+  auto parsed = std::make_shared<Parsed<AnalyzeRequest>>();
+  app.add_option("source", parsed->request.source, "Run folder, or any log of lcm-logger")
+      ->required();
+  app.add_option("--out", parsed->request.out, "Folder of the results");
+  app.add_flag("--json", parsed->is_json, "print summary.json instead of the table");
+  return [parsed] {
+    return reported(parsed->form(), [&parsed] { return analyze(parsed->request, parsed->form()); });
+  };
+}
+
+}  // namespace
+
+std::vector<NodeCommand> commands() {
+  return {{"rate", "Rate one signal against another.", define_rate},
+          {"injury", "Injury metrics of head signals.", define_injury},
+          {"analyze", "Channels, summary and table from a log.", define_analyze}};
 }
 
 }  // namespace crosswalk::recording

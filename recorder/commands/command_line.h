@@ -1,18 +1,12 @@
-// The recorder's own commands as options of a command-line parser.
+// The recorder's own commands for the shared command line.
 #pragma once
 
-#include <functional>
+#include <vector>
 
-#include "common/error.h"
-
-namespace CLI {
-class App;
-}
+#include "common/node_main.h"
 
 namespace crosswalk::recording {
 
-/// Each adds its options to `app` and returns what to do once they are parsed.
-std::function<ExitCode()> define_rate(CLI::App& app);
-std::function<ExitCode()> define_injury(CLI::App& app);
+std::vector<NodeCommand> commands();
 
 }  // namespace crosswalk::recording

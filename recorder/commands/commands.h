@@ -30,8 +30,14 @@ struct InjuryRequest {
   bool is_filtered = false;      ///< the signals are filtered already
 };
 
+struct AnalyzeRequest {
+  std::filesystem::path source;  ///< a run folder, or any LCM event log
+  std::filesystem::path out;     ///< empty: the run folder, or <log>.analysis beside the log
+};
+
 ExitCode rate(const RateRequest& request, OutputForm form);
 ExitCode injury(const InjuryRequest& request, OutputForm form);
+ExitCode analyze(const AnalyzeRequest& request, OutputForm form);
 
 /// Runs `command`; SignalError and UserError become the object or line above and exit code 2.
 ExitCode reported(OutputForm form, const std::function<ExitCode()>& command);

@@ -148,7 +148,7 @@ void Writer::fe(std::int64_t k, std::int64_t t_ns) {
   m.internal = 5 * t;
   m.kinetic = 20 * t;
   m.hourglass = 0.1 * t;
-  m.external_work = 22.9 * t;
+  m.external_work = 23.1 * t;
   m.interface_work = 2 * t;
   m.head_contact_force = t >= Run::kHeadContact - 1e-12 ? 2000 : 0;
   m.n_records = records[Role::Fe];

@@ -1,0 +1,66 @@
+#include "recorder/recorder_node.h"
+
+#include "common/bus.h"
+#include "common/interrupt.h"
+#include "common/log.h"
+#include "common/version.h"
+#include "recorder/analysis.h"
+#include "recorder/recorder_session.h"
+
+namespace crosswalk::recording {
+
+namespace {
+
+/// Channels, summary and table from what the log holds; a log too poor for them is said, not fatal.
+void conclude(const RunDirectory& directory, const Recorder& recorder) {
+  log_info("{} messages, {:.1f} MB in {}", recorder.messages(),
+           1e-6 * static_cast<double>(recorder.bytes()), directory.signals().string());
+  try {
+    const Analysis analysis = analyze_log(directory.signals());
+    write_results(analysis, directory);
+    for (const std::string& warning : analysis.summary.warnings) log_warning("{}", warning);
+  } catch (const UserError& error) {
+    log_warning("no results: {}", error.what());
+  } catch (const SignalError& error) {
+    log_warning("no results ({}): {}", error.code(), error.what());
+  }
+}
+
+}  // namespace
+
+void read_recorder_table(ConfigDocument& document, const Scenario&) {
+  document.root().table("recorder", "Settings of the recorder; none are needed.");
+}
+
+ExitCode run_recorder(RunContext& context) {
+  read_recorder_table(context.document, context.scenario);
+  context.document.finish();
+  Bus bus(open_transport(context.url), context.run_id, Role::Recorder,
+          BusFaults::from_environment());
+  Recorder recorder(context.directory.signals(), bus.run());
+  NodeIdentity identity;
+  identity.scenario_digest = static_cast<std::int64_t>(context.scenario.digest);
+  identity.version = version_text();
+  NodeSession::Limits limits;
+  limits.join_s = context.wait_s;
+  bool is_concluded = false;
+  const auto conclude_once = [&] {
+    recorder.flush();
+    if (!is_concluded) conclude(context.directory, recorder);
+    is_concluded = true;
+  };
+  RecorderSession session(bus, recorder, identity, limits, conclude_once);
+  try {
+    const ExitCode code = session.run(interrupt_flag());
+    conclude_once();
+    return code;
+  } catch (const ProtocolError& error) {
+    if (!session.manifest()) throw;
+    // The run failed elsewhere: keep and judge what there is.
+    log_warning("the record is not complete: {}", error.what());
+    conclude_once();
+    return ExitCode::Done;
+  }
+}
+
+}  // namespace crosswalk::recording

@@ -1,0 +1,253 @@
+#include "recorder/summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "recorder/signal.h"
+
+namespace crosswalk::recording {
+
+namespace {
+
+// Limits the project holds itself to; the last two are those of the seed paper [yu2020, 3.3].
+constexpr double kDriftLimitPercent = 1.0;
+constexpr double kBalanceLimitPercent = 2.0;
+constexpr double kHourglassLimitPercent = 10.0;
+constexpr double kAddedMassLimitPercent = 2.0;
+
+double held(const FeWindow& w) {
+  return w.kinetic + w.internal + w.hourglass + w.contact + w.damping;
+}
+
+std::optional<double> described_mass(const RunRecord& record) {
+  const auto found = record.description.find(Role::Fe);
+  if (found == record.description.end()) return std::nullopt;
+  const auto fe = nlohmann::json::parse(found->second, nullptr, false);
+  if (!fe.is_object() || !fe.contains("mass_kg") || !fe["mass_kg"].is_number()) return std::nullopt;
+  return fe["mass_kg"].get<double>();
+}
+
+FiniteElementBalance balance_of(const RunRecord& record) {
+  FiniteElementBalance b;
+  const FeWindow& first = record.fe.begin()->second;
+  const double start = held(first) - first.external_work - first.interface_work;
+  double worst = 0;
+  for (const auto& [window, w] : record.fe) {
+    b.peak_energy = std::max(b.peak_energy, held(w));
+    worst = std::max(worst, std::abs(held(w) - w.external_work - w.interface_work - start));
+  }
+  const FeWindow& last = record.fe.rbegin()->second;
+  if (b.peak_energy > 0) b.balance_percent = 100 * worst / b.peak_energy;
+  if (last.internal > 0) b.hourglass_percent = 100 * last.hourglass / last.internal;
+  for (const auto& [window, w] : record.fe) b.added_mass = std::max(b.added_mass, w.added_mass);
+  if (const auto mass = described_mass(record); mass && *mass > 0) {
+    b.added_mass_percent = 100 * b.added_mass / *mass;
+  }
+  return b;
+}
+
+CouplingQuality quality_of(const RunRecord& record) {
+  CouplingQuality q;
+  double worst = 0, balance = 0, peak = 0, iterations = 0;
+  for (const auto& [window, a] : record.audit) {
+    worst = std::max(worst, std::abs(a.drift));
+    balance = std::max(balance, std::abs(a.balance_error));
+    peak = std::max(peak, std::abs(a.total_energy));
+    q.gap_mm = std::max(q.gap_mm, 1e3 * a.gap_position);
+    iterations += a.iterations;
+  }
+  const AuditWindow& last = record.audit.rbegin()->second;
+  q.drift = last.drift;
+  q.exchanged = last.exchanged;
+  if (q.exchanged > 0) q.drift_percent = 100 * worst / q.exchanged;
+  if (peak > 0) q.balance_percent = 100 * balance / peak;
+  q.resends = last.resends;
+  q.iterations = iterations / static_cast<double>(record.audit.size());
+  return q;
+}
+
+std::vector<RegionPeak> tissue_of(const RunRecord& record, double t0) {
+  std::vector<RegionPeak> peaks;
+  const std::vector<std::string> names = run_names(record).regions;
+  for (const auto& [t_ns, sample] : record.tissue) {
+    for (std::size_t i = 0; i < sample.regions.size(); ++i) {
+      if (i >= peaks.size()) {
+        peaks.emplace_back();
+        peaks[i].region = i < names.size() ? names[i] : "region " + std::to_string(i);
+      }
+      RegionPeak& p = peaks[i];
+      const TissueSample::Region& r = sample.regions[i];
+      if (r.mps_95 > p.mps_95) {
+        p.mps_95 = r.mps_95;
+        p.mps_95_time = 1e-9 * static_cast<double>(t_ns) - t0;
+      }
+      p.mps_max = std::max(p.mps_max, r.mps_max);
+      p.mps_95_so_far = std::max(p.mps_95_so_far, r.mps_95_so_far);
+      p.csdm_15 = std::max(p.csdm_15, r.csdm_15);
+      p.csdm_25 = std::max(p.csdm_25, r.csdm_25);
+      p.von_mises_95 = std::max(p.von_mises_95, r.von_mises_95);
+      p.pressure_max = std::max(p.pressure_max, r.pressure_max);
+      p.pressure_min = std::min(p.pressure_min, r.pressure_min);
+    }
+  }
+  return peaks;
+}
+
+Timing timing_of(const RunRecord& record) {
+  Timing t;
+  t.wall = 1e-6 * static_cast<double>(record.last_us - record.first_us);
+  for (const auto& [window, w] : record.mb) t.mb += 1e-6 * w.work_us;
+  for (const auto& [window, w] : record.fe) t.fe += 1e-6 * w.work_us;
+  for (const auto& [window, a] : record.audit) t.windows += 1e-6 * a.wall_us;
+  return t;
+}
+
+void warn_limits(Summary& s) {
+  const auto limit = [&s](const char* what, double value, double most) {
+    if (value <= most) return;
+    s.warnings.push_back(
+        fmt::format("{} is {:.2f} %, above the limit of {:g} %", what, value, most));
+  };
+  if (s.coupling && s.fe)
+    limit("interface audit drift", s.coupling->drift_percent, kDriftLimitPercent);
+  if (!s.fe) return;
+  limit("finite-element energy balance error", s.fe->balance_percent, kBalanceLimitPercent);
+  limit("hourglass energy", s.fe->hourglass_percent, kHourglassLimitPercent);
+  if (s.fe->added_mass_percent)
+    limit("added mass", *s.fe->added_mass_percent, kAddedMassLimitPercent);
+}
+
+std::string outcome_of(const RunRecord& record) {
+  if (record.abort_reason) return "aborted: " + *record.abort_reason;
+  if (record.lost > 0) return fmt::format("{} numbered messages are missing", record.lost);
+  if (!record.is_finished) return "the log ends before the run's end";
+  return "complete";
+}
+
+SignalRating rate_signal(const RatedSignal& signal, const ReferenceCurve& curve,
+                         const Channel& channel) {
+  SignalRating rating{signal, curve.source, {}, {}, {}};
+  Series simulation;
+  for (std::size_t i = 0; i < channel.samples.size(); ++i) {
+    if (!std::isfinite(channel.samples[i])) continue;
+    simulation.t.push_back(channel.time(i));
+    simulation.y.push_back(channel.samples[i]);
+  }
+  try {
+    if (curve.unit != channel.unit) {
+      throw SignalError(SignalFault::BadParameter,
+                        fmt::format("curve in {}, channel in {}", curve.unit, channel.unit));
+    }
+    rating.cora = cora(curve.series, simulation, {}, {});
+    Series reference = curve.series;
+    align_grids(reference, simulation);
+    rating.iso = iso18571(reference, simulation, {});
+  } catch (const SignalError& error) {
+    rating.fault = error.what();
+  }
+  return rating;
+}
+
+void rate(Summary& s, const RunChannels& run, const ReferenceData& reference) {
+  for (const RatedSignal& signal : rating_set({})) {
+    for (const ReferenceCurve& curve : reference.curves) {
+      std::string name = curve.channel;
+      if (name.starts_with("head_cog_relative_")) name.erase(9, 9);
+      if (name != signal.channel) continue;
+      if (const Channel* channel = run.find(curve.channel))
+        s.ratings.push_back(rate_signal(signal, curve, *channel));
+    }
+  }
+}
+
+void add_statements(Summary& s, const std::optional<ReferenceData>& reference) {
+  s.statements.push_back(
+      "Car profile and contact curves, body joints and tissue laws are engineering estimates where "
+      "no "
+      "published number exists; each is marked in its file under scenarios/.");
+  if (!reference) {
+    s.statements.push_back("No reference data is kept for this scenario: nothing was compared.");
+  } else if (reference->curves.empty()) {
+    s.statements.push_back(
+        "No measured curve of this test is in the project: no CORA or ISO rating against the test. "
+        "Put "
+        "digitised curves into " +
+        (reference->folder / "curves").string() + " to get one.");
+  }
+}
+
+}  // namespace
+
+Summary summarize(const RunRecord& record, const RunChannels& channels,
+                  const std::optional<ReferenceData>& reference) {
+  Summary s;
+  if (record.manifest) s.manifest = *record.manifest;
+  s.windows = static_cast<std::int64_t>(record.mb.size());
+  if (!record.mb.empty()) s.simulated = 1e-9 * static_cast<double>(record.mb.rbegin()->second.t_ns);
+  s.outcome = outcome_of(record);
+  s.is_complete = s.outcome == "complete";
+  s.messages = record.messages;
+  s.doubled = record.doubled;
+  s.lost = record.lost;
+  s.t0 = channels.t0;
+  s.has_first_contact = channels.has_first_contact;
+  s.initial_buck_speed = channels.initial_buck_speed;
+  s.head_contact = channels.head_contact;
+  s.warnings = channels.warnings;
+  try {
+    s.card = score_card(channels.head);
+  } catch (const SignalError& error) {
+    s.warnings.push_back(std::string("no injury metrics: ") + error.what());
+  }
+  s.tissue = tissue_of(record, channels.t0);
+  if (!record.fe.empty()) s.fe = balance_of(record);
+  if (!record.audit.empty()) s.coupling = quality_of(record);
+  s.timing = timing_of(record);
+  if (!s.is_complete) s.warnings.push_back("the record is not complete: " + s.outcome);
+  warn_limits(s);
+  for (const Event& event : record.events) {
+    if (event.level == EventLevel::Info) continue;
+    s.warnings.push_back(fmt::format("{} at {:.2f} ms: {}", role_name(event.sender),
+                                     1e-6 * static_cast<double>(event.t_ns) - 1e3 * s.t0,
+                                     event.text));
+  }
+  if (reference) {
+    for (const Band& band : reference->bands) {
+      BandVerdict verdict{band, summary_quantity(s, band.quantity), false};
+      if (verdict.value)
+        verdict.is_inside = *verdict.value >= band.low && *verdict.value <= band.high;
+      s.bands.push_back(verdict);
+    }
+    s.published = reference->scores;
+    s.published_source = reference->scores_source;
+    rate(s, channels, *reference);
+  }
+  add_statements(s, reference);
+  return s;
+}
+
+std::optional<double> summary_quantity(const Summary& s, const std::string& quantity) {
+  if (s.head_contact) {
+    const HeadContact& c = *s.head_contact;
+    if (quantity == "head_contact_time_ms") return 1e3 * c.time;
+    if (quantity == "head_contact_speed_relative_mps") return c.relative_speed;
+    if (quantity == "head_contact_speed_ratio" && c.buck_speed > 0)
+      return c.relative_speed / c.buck_speed;
+    if (quantity == "wrap_around_distance_mm" && c.wrap_around_distance)
+      return 1e3 * *c.wrap_around_distance;
+  }
+  if (s.card.linear) {
+    if (quantity == "peak_g") return s.card.linear->peak_g;
+    if (quantity == "HIC15") return s.card.linear->HIC15.value;
+  }
+  if (s.card.rotation) {
+    if (quantity == "BrIC") return s.card.rotation->BrIC.avg;
+    if (quantity == "DAMAGE") return s.card.rotation->DAMAGE.value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace crosswalk::recording

@@ -1,0 +1,171 @@
+// summary.txt: the table a newcomer reads at the end of a run.
+#include <fmt/format.h>
+
+#include "recorder/summary.h"
+
+namespace crosswalk::recording {
+
+namespace {
+
+constexpr std::size_t kWidth = 96;
+
+class Table {
+ public:
+  void title(const std::string& text) { out_ += text + "\n" + std::string(kWidth, '-') + "\n"; }
+  void row(const std::string& what, const std::string& value, const std::string& remark = {}) {
+    std::string line = fmt::format("  {:<34}{:>14}   {}", what, value, remark);
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    out_ += line + "\n";
+  }
+  void text(const std::string& mark, const std::string& words) {
+    std::string line = "  " + mark;
+    std::size_t from = 0;
+    while (from < words.size()) {
+      const std::size_t to = std::min(words.find(' ', from), words.size());
+      if (line.size() + to - from + 1 > kWidth && line.size() > mark.size() + 2) {
+        out_ += line + "\n";
+        line = std::string(mark.size() + 2, ' ');
+      }
+      line += " " + words.substr(from, to - from);
+      from = to + 1;
+    }
+    out_ += line + "\n";
+  }
+  void gap() { out_ += "\n"; }
+  std::string take() { return std::move(out_); }
+
+ private:
+  std::string out_;
+};
+
+void head_rows(Table& t, const Summary& s) {
+  t.title("Head");
+  if (s.head_contact) {
+    const HeadContact& c = *s.head_contact;
+    t.row("first contact with the car", fmt::format("{:.1f} ms", 1e3 * c.time),
+          "after leg contact; against: " + c.partner);
+    t.row("speed relative to the buck", fmt::format("{:.2f} m/s", c.relative_speed),
+          c.buck_speed > 0 ? fmt::format("{:.2f} of buck speed, just before contact",
+                                         c.relative_speed / c.buck_speed)
+                           : "");
+    if (c.wrap_around_distance) {
+      t.row("wrap-around distance", fmt::format("{:.0f} mm", 1e3 * *c.wrap_around_distance));
+    }
+    t.row("peak contact force", fmt::format("{:.2f} kN", 1e-3 * c.peak_force));
+  } else {
+    t.row("contact with the car", "none", "no head force above 50 N");
+  }
+  if (s.card.linear) {
+    const LinearScores& l = *s.card.linear;
+    t.row("peak acceleration", fmt::format("{:.1f} g", l.peak_g), "resultant, CFC 1000");
+    t.row("HIC15", fmt::format("{:.0f}", l.HIC15.value),
+          l.HIC15.t1 ? fmt::format("{:.1f} .. {:.1f} ms; limit 700 (FMVSS 208)", 1e3 * *l.HIC15.t1,
+                                   1e3 * *l.HIC15.t2)
+                     : "");
+    if (l.clip_single)
+      t.row("3 ms acceleration", fmt::format("{:.1f} g", l.clip_single->value), "limit 80 g");
+  }
+  if (s.card.rotation) {
+    const RotationScores& r = *s.card.rotation;
+    t.row("BrIC", fmt::format("{:.2f}", r.BrIC.avg),
+          fmt::format("peak angular velocity {:.1f} rad/s", r.peak_w));
+    t.row("DAMAGE", fmt::format("{:.2f}", r.DAMAGE.value), "0.42 .. 0.47: Euro NCAP band");
+  }
+  t.gap();
+}
+
+void tissue_rows(Table& t, const Summary& s) {
+  if (s.tissue.empty()) return;
+  t.title("Brain tissue (first principal Green strain)");
+  for (const RegionPeak& p : s.tissue) {
+    t.row(p.region + " MPS95", fmt::format("{:.3f}", p.mps_95_so_far),
+          fmt::format("CSDM 0.15: {:.2f}, CSDM 0.25: {:.2f}", p.csdm_15, p.csdm_25));
+  }
+  t.gap();
+}
+
+void quality_rows(Table& t, const Summary& s) {
+  t.title("Quality of the run");
+  if (s.fe) {
+    t.row("finite-element energy balance", fmt::format("{:.2f} %", s.fe->balance_percent),
+          "limit 2 %");
+    t.row("hourglass energy", fmt::format("{:.2f} %", s.fe->hourglass_percent),
+          "of internal energy, limit 10 %");
+    t.row("added mass", fmt::format("{:.1f} g", 1e3 * s.fe->added_mass),
+          s.fe->added_mass_percent ? fmt::format("{:.2f} %, limit 2 %", *s.fe->added_mass_percent)
+                                   : "");
+  }
+  if (s.coupling) {
+    if (s.fe) {
+      t.row("interface audit drift", fmt::format("{:.3f} %", s.coupling->drift_percent),
+            fmt::format("of {:.3g} J exchanged, limit 1 %", s.coupling->exchanged));
+    }
+    t.row("energy balance of both sides", fmt::format("{:.2f} %", s.coupling->balance_percent),
+          "of the peak energy");
+    t.row("messages sent again", fmt::format("{}", s.coupling->resends));
+  }
+  t.row("record", s.is_complete ? "complete" : "INCOMPLETE",
+        s.is_complete ? fmt::format("{} messages", s.messages) : s.outcome);
+  t.row("wall time", fmt::format("{:.1f} s", s.timing.wall),
+        fmt::format("multibody {:.1f} s, finite elements {:.1f} s", s.timing.mb, s.timing.fe));
+  t.gap();
+}
+
+void band_rows(Table& t, const Summary& s) {
+  if (s.bands.empty()) return;
+  t.title("Against what is known of the test");
+  for (const BandVerdict& v : s.bands) {
+    const std::string range =
+        fmt::format("{:g} .. {:g} ({})", v.band.low, v.band.high, v.band.status);
+    t.row(
+        v.band.quantity, v.value ? fmt::format("{:.4g}", *v.value) : "-",
+        fmt::format("{:<8}{}", v.value ? (v.is_inside ? "inside" : "OUTSIDE") : "no value", range));
+  }
+  t.gap();
+}
+
+void rating_rows(Table& t, const Summary& s) {
+  if (s.ratings.empty()) return;
+  t.title("Ratings against your curves (CORA defaults, whole common interval)");
+  for (const SignalRating& r : s.ratings) {
+    if (!r.fault.empty()) {
+      t.row(r.signal.label, "-", r.fault);
+      continue;
+    }
+    t.row(r.signal.label, fmt::format("C {:.3f}", r.cora->C),
+          fmt::format("C1 {:.3f}, V {:.3f}, G {:.3f}, P {:.3f}; ISO 18571 R {:.3f} ({})",
+                      r.cora->C1, r.cora->V, r.cora->G, r.cora->P, r.iso ? r.iso->R : 0.0,
+                      r.iso ? r.iso->grade : "-"));
+  }
+  t.gap();
+}
+
+}  // namespace
+
+std::string to_text(const Summary& s) {
+  Table t;
+  t.title(fmt::format("{} · {} · {:.1f} ms simulated in {} windows of {:g} us", s.manifest.scenario,
+                      s.manifest.has_fe ? "coupled" : "multibody", 1e3 * s.simulated, s.windows,
+                      1e-3 * static_cast<double>(s.manifest.window_ns)));
+  if (s.initial_buck_speed) {
+    t.row("buck speed", fmt::format("{:.1f} km/h", 3.6 * *s.initial_buck_speed));
+  }
+  t.row("first contact of car and leg",
+        s.has_first_contact ? fmt::format("{:.2f} ms", 1e3 * s.t0) : "none",
+        s.has_first_contact ? "of simulated time; zero of all times below" : "");
+  t.gap();
+  head_rows(t, s);
+  tissue_rows(t, s);
+  quality_rows(t, s);
+  band_rows(t, s);
+  rating_rows(t, s);
+  if (!s.warnings.empty()) {
+    t.title(fmt::format("Warnings ({})", s.warnings.size()));
+    for (const std::string& warning : s.warnings) t.text("!", warning);
+    t.gap();
+  }
+  for (const std::string& statement : s.statements) t.text("*", statement);
+  return t.take();
+}
+
+}  // namespace crosswalk::recording

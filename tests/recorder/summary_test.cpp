@@ -1,0 +1,144 @@
+// The verdict: numbers of the synthetic run, limits that warn, bands, ratings, and the files
+// written.
+#include "recorder/summary.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "common/error.h"
+#include "recorder/export_csv.h"
+#include "tests/recorder/synthetic_run.h"
+
+namespace crosswalk::recording {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+RunRecord synthetic_record(bool has_fe = true) {
+  SyntheticRun run;
+  run.has_fe = has_fe;
+  RecordBuilder builder;
+  for (const RawMessage& m : run.messages()) builder.add(m.data, 1);
+  return builder.record();
+}
+
+Summary summary_of(const RunRecord& record, const std::optional<ReferenceData>& reference = {}) {
+  return summarize(record, extract(record), reference);
+}
+
+TEST(Summary, TellsContactQualityAndEvents) {
+  const Summary s = summary_of(synthetic_record());
+  EXPECT_TRUE(s.is_complete);
+  ASSERT_TRUE(s.head_contact);
+  EXPECT_NEAR(s.head_contact->relative_speed, std::hypot(11.0, 0.5), 0.05);
+  ASSERT_TRUE(s.fe);
+  EXPECT_LT(s.fe->balance_percent, 1e-6);
+  EXPECT_NEAR(s.fe->hourglass_percent, 2.0, 1e-6);
+  ASSERT_TRUE(s.coupling);
+  EXPECT_EQ(s.coupling->drift, 0);
+  ASSERT_EQ(s.warnings.size(), 1U);
+  EXPECT_THAT(s.warnings[0], HasSubstr("a joint has failed"));
+  ASSERT_EQ(s.tissue.size(), 2U);
+  EXPECT_EQ(s.tissue[1].region, "brain stem");
+  EXPECT_NEAR(s.tissue[0].mps_95_so_far, 0.19, 0.01);
+}
+
+TEST(Summary, WarnsWhereALimitIsBroken) {
+  RunRecord record = synthetic_record();
+  record.audit.rbegin()->second.drift = 0.05 * record.audit.rbegin()->second.exchanged;
+  record.fe.rbegin()->second.hourglass = record.fe.rbegin()->second.internal;
+  const Summary s = summary_of(record);
+  std::string all;
+  for (const std::string& warning : s.warnings) all += warning + "\n";
+  EXPECT_THAT(all, HasSubstr("interface audit drift is 5.00 %"));
+  EXPECT_THAT(all, HasSubstr("hourglass energy is 100.00 %"));
+  EXPECT_THAT(all, HasSubstr("finite-element energy balance error"));
+}
+
+TEST(Summary, SaysThatARecordIsIncomplete) {
+  RunRecord record = synthetic_record();
+  record.is_finished = false;
+  EXPECT_FALSE(summary_of(record).is_complete);
+  record.abort_reason = "fe_node was killed at window 7";
+  EXPECT_THAT(to_text(summary_of(record)), HasSubstr("aborted: fe_node was killed at window 7"));
+}
+
+TEST(Summary, BandsAreJudgedAndCurvesRated) {
+  ReferenceData reference;
+  reference.test = "synthetic";
+  reference.bands = {{"head_contact_time_ms", 9, 11, "estimated", "here"},
+                     {"HIC15", 1e5, 1e6, "estimated", "here"},
+                     {"wrap_around_distance_mm", 1, 2, "estimated", "here"}};
+  const RunRecord record = synthetic_record();
+  const RunChannels run = extract(record);
+  const Channel* own = run.find("head_speed_relative");
+  ASSERT_NE(own, nullptr);
+  reference.curves = {{"head_speed_relative", "mps", own->series(), {}, "the run itself"}};
+  const Summary s = summarize(record, run, reference);
+  ASSERT_EQ(s.bands.size(), 3U);
+  EXPECT_TRUE(s.bands[0].is_inside);
+  EXPECT_FALSE(s.bands[1].is_inside);
+  EXPECT_FALSE(s.bands[2].value);
+  ASSERT_EQ(s.ratings.size(), 1U);
+  EXPECT_NEAR(s.ratings[0].cora->C, 1, 1e-9);
+  EXPECT_NEAR(s.ratings[0].iso->R, 1, 1e-9);
+}
+
+TEST(Summary, WithoutCurvesNoScoreIsPrinted) {
+  ReferenceData reference;
+  reference.folder = "scenarios/reference/v2370";
+  const std::string text = to_text(summary_of(synthetic_record(), reference));
+  EXPECT_THAT(text, HasSubstr("No measured curve of this test"));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("Ratings against")));
+}
+
+TEST(Summary, TextFitsATerminal) {
+  const std::string text = to_text(summary_of(synthetic_record()));
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) EXPECT_LE(line.size(), 120U) << line;
+}
+
+TEST(ChannelsCsv, EveryDoubleAndUnitComesBack) {
+  const fs::path path = fs::temp_directory_path() / "cw_channels_round_trip.csv";
+  const RunChannels run = extract(synthetic_record());
+  write_channels_csv(path, run.channels, {{"scenario", "V2370"}});
+  const std::vector<Channel> back = read_channels_csv(path);
+  fs::remove(path);
+  ASSERT_EQ(back.size(), run.channels.size());
+  for (std::size_t c = 0; c < back.size(); ++c) {
+    EXPECT_EQ(back[c].name, run.channels[c].name);
+    EXPECT_EQ(back[c].unit, run.channels[c].unit);
+    EXPECT_EQ(back[c].description, run.channels[c].description);
+    EXPECT_NEAR(back[c].dt, run.channels[c].dt, 1e-15);
+    ASSERT_EQ(back[c].samples.size(), run.channels[c].samples.size());
+    for (std::size_t i = 0; i < back[c].samples.size(); ++i) {
+      const double wanted = run.channels[c].samples[i];
+      if (std::isfinite(wanted)) {
+        EXPECT_EQ(back[c].samples[i], wanted);
+      } else {
+        EXPECT_TRUE(std::isnan(back[c].samples[i]));
+      }
+    }
+  }
+}
+
+TEST(ReferenceCurve, UnitsSignAndFrameAreTakenFromItsComments) {
+  const fs::path path = fs::temp_directory_path() / "head_cog_y.csv";
+  std::ofstream(path) << "# unit: m\n# sign: -1\n# relative_to: buck\n# source: digitised\n"
+                      << "time_ms,value\n0,0\n1.5,-0.25\n2.1,-0.5\n";
+  const ReferenceCurve curve = read_reference_curve(path);
+  EXPECT_EQ(curve.channel, "head_cog_relative_y");
+  EXPECT_DOUBLE_EQ(curve.series.t[1], 0.0015);
+  EXPECT_DOUBLE_EQ(curve.series.y[1], 250);
+  std::ofstream(path) << "# unit: furlong\ntime_ms,value\n0,0\n1,1\n";
+  EXPECT_THROW(read_reference_curve(path), UserError);
+  fs::remove(path);
+}
+
+}  // namespace
+}  // namespace crosswalk::recording

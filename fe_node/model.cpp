@@ -108,6 +108,11 @@ void Model::finish() {
   hand_over_tied_masses(*this);
   body_of_node.assign(mesh.node_count(), -1);
   for (int b = 0; b < static_cast<int>(bodies.size()); ++b) finish_body(*this, b);
+  contact_mass = mass;
+  for (const RigidBody& body : bodies)
+    for (int n : body.nodes)
+      contact_mass[n] =
+          std::max(mass[n], body.inertia.mass / static_cast<double>(body.nodes.size()));
 }
 
 double Model::total_mass() const {

@@ -47,9 +47,11 @@ struct Model {
   CornerTable corner_moments;  ///< node -> slots of the corner moment array
   std::vector<std::size_t> force_offset, moment_offset;  ///< of each block in those arrays
   std::vector<double> mass;                              ///< kg per node, added mass included
-  std::vector<double> inertia;                           ///< kg m2 per node; empty without shells
-  std::vector<int> body_of_node;                         ///< index into bodies, or -1
-  std::vector<double> added_mass;                        ///< kg per part, by mass scaling
+  /// kg per node as a contact feels it: nodes of a rigid body share the body's mass.
+  std::vector<double> contact_mass;
+  std::vector<double> inertia;     ///< kg m2 per node; empty without shells
+  std::vector<int> body_of_node;   ///< index into bodies, or -1
+  std::vector<double> added_mass;  ///< kg per part, by mass scaling
 
   /// Lumps masses, scales mass, builds the corner tables. Call once, last.
   void finish();

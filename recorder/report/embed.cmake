@@ -1,0 +1,15 @@
+# Writes a C++ file that holds text files as string constants; a missing file becomes empty.
+# cmake -DOUT=assets.cpp -DNAMES=a,b -DFILES=a.css,b.js -P embed.cmake
+string(REPLACE "," ";" NAMES "${NAMES}")
+string(REPLACE "," ";" FILES "${FILES}")
+file(WRITE ${OUT} "#include \"recorder/report/assets.h\"\n\nnamespace crosswalk::recording::assets {\n")
+foreach(name path IN ZIP_LISTS NAMES FILES)
+  set(text "")
+  if(EXISTS ${path})
+    file(READ ${path} text)
+  endif()
+  file(APPEND ${OUT} "static constexpr char ${name}_text[] = R\"cwasset(")
+  file(APPEND ${OUT} "${text}")
+  file(APPEND ${OUT} ")cwasset\";\nconst std::string_view ${name}{${name}_text, sizeof ${name}_text - 1};\n")
+endforeach()
+file(APPEND ${OUT} "}  // namespace crosswalk::recording::assets\n")

@@ -1,0 +1,13 @@
+// Entry of the page script: makes the static report interactive.
+import 'uplot/dist/uPlot.min.css';
+import { drawCharts } from './charts.js';
+import { startPlayback } from './playback.js';
+
+const source = document.getElementById('report-data');
+if (source) {
+  const data = JSON.parse(source.textContent);
+  document.documentElement.classList.add('scripted');
+  drawCharts(data.charts);
+  const host = document.querySelector('[data-playback]');
+  if (host && data.scene) startPlayback(data.scene, host);
+}

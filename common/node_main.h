@@ -44,11 +44,11 @@ struct NodeProgram {
   std::string name;     ///< "mb_node"
   std::string purpose;  ///< one line of --help
   /// Reads every key of the program's tables; for `check` and `keys`, which finish the document.
-  std::function<void(ConfigDocument& document, const Scenario& scenario)> read;
-  std::function<ExitCode(RunContext& context)> run;
+  std::function<void(ConfigDocument& document, const Scenario& scenario)> read = {};
+  std::function<ExitCode(RunContext& context)> run = {};
   /// Files other than .toml given to `check` (fe_node: keyword decks); may be empty.
-  std::function<void(const std::filesystem::path& file)> check_file;
-  std::vector<NodeCommand> commands;
+  std::function<void(const std::filesystem::path& file)> check_file = {};
+  std::vector<NodeCommand> commands = {};
 };
 
 /// Runs the program; the value for main to return.

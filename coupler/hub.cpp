@@ -224,6 +224,11 @@ void Hub::watch(Role role, const std::string& what, double waited_s) {
 void Hub::wait_for(const std::vector<Role>& whom, const std::string& what,
                    const std::function<bool()>& done, const std::function<void()>& again,
                    double first_resend_s) {
+  const auto stop_when_asked = [&] {
+    if (interrupted_ || stop_asked_)
+      throw ProtocolError(ExitCode::Interrupted, fmt::format("stopped on request during {}", what));
+  };
+  stop_when_asked();  // answers may come faster than the loop below would look
   if (bus_.wait_until(Bus::Clock::now(), done)) return;
   const auto begin = Bus::Clock::now();
   double time_out = first_resend_s;
@@ -231,9 +236,7 @@ void Hub::wait_for(const std::vector<Role>& whom, const std::string& what,
   auto watch_at = begin + 250ms;
   bool told = false;
   while (!bus_.wait_until(std::min(resend_at, watch_at), done)) {
-    if (interrupted_ || stop_asked_) {
-      throw ProtocolError(ExitCode::Interrupted, fmt::format("stopped on request during {}", what));
-    }
+    stop_when_asked();
     const auto now = Bus::Clock::now();
     if (now >= watch_at) {
       for (const Role role : whom) watch(role, what, since(begin));

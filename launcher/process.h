@@ -36,6 +36,7 @@ class Process {
 
   const std::string& name() const { return spec_.name; }
   const ProcessSpec& spec() const { return spec_; }
+  pid_t pid() const { return pid_; }
   bool is_running() const { return pid_ > 0 && !status_; }
   /// How it ended; looks, never waits.
   const std::optional<ExitStatus>& poll();

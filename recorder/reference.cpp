@@ -86,6 +86,17 @@ void read_scores(const fs::path& path, ReferenceData& data) {
   document.finish();
 }
 
+std::vector<ReferenceFact> read_facts(const fs::path& path) {
+  ConfigDocument document(path);
+  std::vector<ReferenceFact> facts;
+  for (ConfigTable& t : document.root().tables("fact", "Something published about the test.")) {
+    facts.push_back(
+        {t.text("name", "What."), t.text("value", "How much."), t.text("source", "Where.")});
+  }
+  document.finish();
+  return facts;
+}
+
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -142,6 +153,7 @@ ReferenceData read_reference(const fs::path& folder) {
   data.folder = folder;
   if (fs::exists(folder / "bands.toml")) data.bands = read_bands(folder / "bands.toml");
   if (fs::exists(folder / "scores.toml")) read_scores(folder / "scores.toml", data);
+  if (fs::exists(folder / "facts.toml")) data.facts = read_facts(folder / "facts.toml");
   std::vector<fs::path> files;
   if (fs::is_directory(folder / "curves")) {
     for (const auto& entry : fs::directory_iterator(folder / "curves")) {

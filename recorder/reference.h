@@ -3,6 +3,7 @@
 //
 // bands.toml  quantities of the summary with low, high, status and source
 // scores.toml total CORA scores of published models
+// facts.toml  what else is published, in words
 // curves/     <channel>.csv, columns time_ms (or time_s), value[, sigma]; comment lines
 //             `# unit: mm`, `# sign: -1`, `# relative_to: buck|ground`, `# source: ...`
 // Irregular samples are welcome. Without curves nothing is ever printed as a validation score.
@@ -37,12 +38,18 @@ struct ReferenceCurve {
   std::string source;
 };
 
+/// Something published in words.
+struct ReferenceFact {
+  std::string name, value, source;
+};
+
 struct ReferenceData {
   std::string test;
   std::filesystem::path folder;
   std::vector<Band> bands;
   std::vector<PublishedScore> scores;
   std::string scores_source;
+  std::vector<ReferenceFact> facts;
   std::vector<ReferenceCurve> curves;
 };
 

@@ -140,5 +140,22 @@ TEST(ReferenceCurve, UnitsSignAndFrameAreTakenFromItsComments) {
   fs::remove(path);
 }
 
+TEST(ReferenceData, TheThreePublishedTestsAreKeptAsPrinted) {
+  const fs::path root = fs::path(CW_SOURCE_DIR) / "scenarios" / "reference";
+  double sum = 0;
+  for (const char* test : {"v2370", "v2371", "v2374"}) {
+    const ReferenceData data = read_reference(root / test);
+    EXPECT_GE(data.bands.size(), 5U);
+    EXPECT_EQ(data.scores.size(), 10U);
+    EXPECT_FALSE(data.facts.empty());
+    EXPECT_TRUE(data.curves.empty());
+    for (const PublishedScore& score : data.scores) {
+      if (score.model == "CPCBM coupled" && score.signal == "head_acceleration_resultant")
+        sum += score.score;
+    }
+  }
+  EXPECT_NEAR(sum / 3, 0.767, 5e-4);  // [yu2020, Table 3], the mean the abstract rounds to 0.77
+}
+
 }  // namespace
 }  // namespace crosswalk::recording

@@ -248,7 +248,10 @@ void Dynamics::touch_car(MbState& state) {
                          kCarSlipSpeed, total);
       report_.car_total += total;
       report_.car_component[component] += total;
-      if (part.segment == model_.head) report_.head_car += total;
+      if (part.segment == model_.head) {
+        report_.head_car += total;
+        report_.head_point = o.point;
+      }
       car_power_ += total.dot(v_car);
     }
   }

@@ -25,6 +25,7 @@ struct ContactReport {
   Vec3 car_total = Vec3::Zero();  ///< on the pedestrian
   std::vector<Vec3> car_component;
   Vec3 head_car = Vec3::Zero();
+  Vec3 head_point = Vec3::Zero();  ///< where the head last touched the car, W
   Vec3 ground = Vec3::Zero();
   double self_total = 0;  ///< N, sum of magnitudes
   int contacts = 0;

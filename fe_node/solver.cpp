@@ -86,8 +86,8 @@ void contact_forces(const Model& model, State& state, Scratch& scratch, StepRepo
     scratch.contact_loads.on_body[b] = Wrench{};
   }
   scratch.contact_loads.nodal.clear();
-  const ContactContext context{state.nodes, model.contact_mass, scratch.body_views,
-                               state.time,  state.last_dt,      state.step};
+  const ContactContext context{state.nodes,   model.contact_mass, scratch.body_views, state.time,
+                               state.last_dt, state.step,         scratch.threads};
   state.energies.contact_stored = 0;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     if (state.step == 0) model.contacts[c]->initialise(state.contacts[c], context);

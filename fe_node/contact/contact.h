@@ -26,6 +26,7 @@ struct ContactContext {
   double time = 0;
   double dt = 0;
   std::int64_t step = 0;
+  int threads = 1;
 };
 
 /// What a contact remembers between steps; a value, saved with the State. Candidate lists of the

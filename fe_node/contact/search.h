@@ -1,0 +1,49 @@
+// Candidate pairs of one pass of a contact: nodes near facets, found again when anything has moved
+// half the margin since the last search.
+#pragma once
+
+#include "fe_node/contact/contact.h"
+#include "fe_node/contact/surface.h"
+
+namespace crosswalk::fe {
+
+/// Nodes tried against facets. A node skips the facets that hold it or, for a surface against
+/// itself, one of its neighbours.
+struct ContactPass {
+  std::vector<ContactNode> nodes;
+  std::vector<ContactFacet> facets;
+  std::vector<int> neighbour_begin, neighbours;  ///< mesh nodes per entry of `nodes`, rising
+  double thickness_scale = 1;
+
+  void find_neighbours();
+  bool skips(int node, const ContactFacet& facet) const;
+  /// How far from its plane a facet can still be touched by a node, without the margin.
+  double reach(const ContactFacet& facet, double largest_node_thickness) const;
+};
+
+struct NearNode {
+  int node = 0;                     ///< entry of ContactPass::nodes
+  std::span<const int> candidates;  ///< facets
+};
+
+/// A view of the candidate list inside a flat array of ints:
+/// near count m, m nodes, m + 1 offsets, candidates.
+class CandidateList {
+ public:
+  explicit CandidateList(std::span<const int> data) : data_(data) {}
+  int count() const { return data_.empty() ? 0 : data_[0]; }
+  NearNode operator[](int i) const {
+    const int m = count();
+    const int first = data_[1 + m + i], last = data_[1 + m + i + 1];
+    return {data_[1 + i], data_.subspan(static_cast<std::size_t>(2 + 2 * m + first), last - first)};
+  }
+
+ private:
+  std::span<const int> data_;
+};
+
+/// Appends the list of this pass to `out`.
+void search(const ContactPass& pass, std::span<const NodeRecord> nodes, double margin,
+            std::vector<int>& out);
+
+}  // namespace crosswalk::fe

@@ -39,6 +39,13 @@ HexCorners corners_of(const MeshDraft& draft, const Hex& hex) {
   return x;
 }
 
+Vec3 trilinear(const HexCorners& x, double r, double s, double t) {
+  Vec3 p = Vec3::Zero();
+  for (int c = 0; c < 8; ++c)
+    p += 0.125 * (1 + kSigns[c][0] * r) * (1 + kSigns[c][1] * s) * (1 + kSigns[c][2] * t) * x[c];
+  return p;
+}
+
 // The determinant is at most quadratic in each coordinate: two Gauss points each way are exact.
 double volume(const HexCorners& x) {
   const double g = 1.0 / std::sqrt(3.0);

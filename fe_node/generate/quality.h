@@ -14,9 +14,14 @@
 
 namespace crosswalk::fe::generate {
 
+/// Limits every generated element keeps, rigid ones too [E].
+inline constexpr double kMinScaledJacobian = 0.2, kMaxAspect = 12.5;
+
 using HexCorners = std::array<Vec3, 8>;
 
 HexCorners corners_of(const MeshDraft& draft, const Hex& hex);
+/// Point of the trilinear map at natural coordinates in -1..1.
+Vec3 trilinear(const HexCorners& x, double r, double s, double t);
 /// Exact volume of the trilinear hexahedron, m3.
 double volume(const HexCorners& x);
 double scaled_jacobian(const HexCorners& x);

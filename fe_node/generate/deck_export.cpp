@@ -1,0 +1,217 @@
+#include "fe_node/generate/deck_export.h"
+
+#include <map>
+#include <set>
+
+#include "common/error.h"
+
+namespace crosswalk::fe::generate {
+
+namespace {
+
+constexpr int kSolidSection = 1, kSpringSection = 2, kFirstOwnSection = 100;
+constexpr int kStiffnessHourglass = 5;  ///< IHQ: Flanagan-Belytschko stiffness form, exact volume
+constexpr std::size_t kTitleLength = 78;
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+/// The law's numbers from SI to the deck's units; refuses laws the generators do not use.
+MaterialLaw in_units(MaterialLaw law, const UnitFactors& u) {
+  std::visit(Overloaded{[&](mat::Elastic& m) { m.youngs /= u.stress(); },
+                        [&](mat::Viscoelastic& m) {
+                          m.bulk /= u.stress();
+                          m.shear_short /= u.stress();
+                          m.shear_long /= u.stress();
+                          m.decay *= u.time;
+                        },
+                        [&](mat::PlasticKinematic& m) {
+                          m.youngs /= u.stress();
+                          m.yield /= u.stress();
+                          m.tangent /= u.stress();
+                        },
+                        [&](mat::PiecewiseLinearPlasticity& m) {
+                          m.youngs /= u.stress();
+                          m.yield /= u.stress();
+                          m.tangent /= u.stress();
+                          for (double& stress : m.stress) stress /= u.stress();
+                        },
+                        [&](mat::Rigid& m) { m.youngs /= u.stress(); },
+                        [&](mat::Muscle& m) {
+                          m.peak_stress /= u.stress();
+                          m.maximum_rate *= u.time;
+                        },
+                        [](mat::SpringNonlinearElastic&) {},
+                        [](auto&) { CW_ASSERT(false && "law without unit rule"); }},
+             law);
+  return law;
+}
+
+class Export {
+ public:
+  Export(const ModelDraft& draft, UnitSystem units)
+      : draft_(draft), units_(unit_factors(units)), deck_{} {
+    deck_.title = draft.title;
+    deck_.units = units;
+  }
+
+  Deck run() {
+    add_nodes();
+    for (const PartSpec& part : draft_.parts) add_part(part);
+    add_elements();
+    add_curves();
+    add_sets();
+    add_control();
+    return std::move(deck_);
+  }
+
+ private:
+  static DeckId node_id(int index) { return DeckId(index + 1); }
+
+  void add_nodes() {
+    for (std::size_t i = 0; i < draft_.mesh.nodes.size(); ++i)
+      deck_.nodes.push_back(
+          {.id = node_id(static_cast<int>(i)), .position = draft_.mesh.nodes[i] / units_.length});
+  }
+
+  void add_part(const PartSpec& spec) {
+    Part part{.id = DeckId(spec.id), .title = spec.name};
+    part.material = DeckId(spec.id);
+    part.section = section(spec);
+    if (const auto* solid = std::get_if<SolidSection>(&spec.section))
+      part.hourglass = hourglass(*solid);
+    deck_.parts.push_back(part);
+    const std::string title = spec.name + " " + mark(spec.grade) + " " + spec.source;
+    deck_.materials.push_back({.id = DeckId(spec.id),
+                               .title = title.substr(0, kTitleLength),
+                               .density = spec.density / units_.density(),
+                               .law = in_units(spec.law, units_)});
+  }
+
+  DeckId section(const PartSpec& spec) {
+    Section section;
+    std::visit(Overloaded{[&](const SolidSection&) {
+                            section.id = DeckId(kSolidSection);
+                            section.law = SectionSolid{.formulation = 1};
+                          },
+                          [&](const SpringSection&) {
+                            section.id = DeckId(kSpringSection);
+                            section.law = SectionDiscrete{};
+                          },
+                          [&](const TrussSection& truss) {
+                            section.id = DeckId(own_sections_++);
+                            SectionBeam beam{.formulation = 3};
+                            beam.area = truss.area / (units_.length * units_.length);
+                            section.law = beam;
+                          },
+                          [&](const ShellSection& shell) {
+                            section.id = DeckId(own_sections_++);
+                            SectionShell law{.formulation = shell.is_membrane ? 5 : 2};
+                            law.points = shell.is_membrane ? 1 : shell.points;
+                            law.thickness.fill(shell.thickness / units_.length);
+                            section.law = law;
+                          }},
+               spec.section);
+    if (sections_.insert(section.id).second) deck_.sections.push_back(section);
+    return section.id;
+  }
+
+  DeckId hourglass(const SolidSection& solid) {
+    const auto [found, is_new] =
+        hourglass_.try_emplace(solid.hourglass, DeckId(static_cast<int>(hourglass_.size()) + 1));
+    if (is_new)
+      deck_.hourglasses.push_back(
+          {.id = found->second, .type = kStiffnessHourglass, .coefficient = solid.hourglass});
+    return found->second;
+  }
+
+  void add_elements() {
+    int id = 0;
+    for (const Hex& hex : draft_.mesh.hexes) {
+      SolidElement solid{.id = DeckId(++id), .part = DeckId(hex.part)};
+      for (int c = 0; c < 8; ++c) solid.nodes[c] = node_id(hex.node[c]);
+      deck_.solids.push_back(solid);
+    }
+    for (const Quad& quad : draft_.mesh.quads) {
+      ShellElement shell{.id = DeckId(++id), .part = DeckId(quad.part)};
+      for (int c = 0; c < 4; ++c) shell.nodes[c] = node_id(quad.node[c]);
+      deck_.shells.push_back(shell);
+    }
+    std::set<int> trusses;
+    for (const PartSpec& part : draft_.parts)
+      if (std::holds_alternative<TrussSection>(part.section)) trusses.insert(part.id);
+    for (const Line& line : draft_.mesh.lines) {
+      const std::array<DeckId, 2> ends{node_id(line.from), node_id(line.to)};
+      ++id;
+      if (trusses.count(line.part) > 0)
+        deck_.beams.push_back(
+            {.id = DeckId(id), .part = DeckId(line.part), .nodes = {ends[0], ends[1], {}}});
+      else
+        deck_.discretes.push_back({.id = DeckId(id), .part = DeckId(line.part), .nodes = ends});
+    }
+    for (const PointMass& point : draft_.mesh.masses)
+      deck_.masses.push_back({.kind = fe::MassTarget::Node,
+                              .id = DeckId(++id),
+                              .target = node_id(point.node),
+                              .mass = point.mass / units_.mass});
+  }
+
+  void add_curves() {
+    for (const CurveSpec& spec : draft_.curves) {
+      DeckCurve curve{.id = DeckId(spec.id), .title = spec.name};
+      for (const auto& [x, y] : spec.points)
+        curve.points.emplace_back(x / units_.length, y / units_.force());
+      deck_.curves.push_back(curve);
+    }
+  }
+
+  void add_sets() {
+    int id = 0;
+    for (const NodeSet& set : draft_.mesh.sets)
+      deck_.sets.push_back(node_set(++id, set.name, set.nodes));
+    for (const RigidAttachment& attachment : draft_.mesh.attachments) {
+      const std::string name = "on_" + draft_.part(attachment.part).name;
+      deck_.sets.push_back(node_set(++id, name, attachment.nodes));
+      deck_.extra_nodes.push_back(
+          {.kind = NodeTarget::Set, .part = DeckId(attachment.part), .target = DeckId(id)});
+    }
+    id = 0;
+    for (const PartSetSpec& spec : draft_.part_sets) {
+      DeckSet set{.kind = SetKind::Part, .id = DeckId(++id), .title = spec.name};
+      for (const int part : spec.parts) set.ids.push_back(DeckId(part));
+      deck_.sets.push_back(set);
+    }
+  }
+
+  static DeckSet node_set(int id, const std::string& name, const std::vector<int>& nodes) {
+    DeckSet set{.kind = SetKind::Node, .id = DeckId(id), .title = name};
+    // Rising and without repetition.
+    const std::set<int> unique(nodes.begin(), nodes.end());
+    for (const int node : unique) set.ids.push_back(node_id(node));
+    return set;
+  }
+
+  void add_control() {
+    deck_.control.time_step = Control::TimeStep{.scale = 0.9};
+    deck_.control.bulk_viscosity = Control::BulkViscosity{.quadratic = 1.5, .linear = 0.06};
+    deck_.control.energy =
+        Control::Energy{.hourglass = 2, .rigid_wall = 2, .sliding = 2, .damping = 2};
+  }
+
+  const ModelDraft& draft_;
+  UnitFactors units_;
+  Deck deck_;
+  std::set<DeckId> sections_;
+  std::map<double, DeckId> hourglass_;
+  int own_sections_ = kFirstOwnSection;
+};
+
+}  // namespace
+
+Deck to_deck(const ModelDraft& draft, UnitSystem units) { return Export(draft, units).run(); }
+
+}  // namespace crosswalk::fe::generate

@@ -1,0 +1,101 @@
+#include "fe_node/generate/head_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fe_node/generate/part_ids.h"
+
+namespace crosswalk::fe::generate {
+
+namespace {
+
+using Radius = double HeadShape::Ray::*;
+
+/// Position on the ray of a surface node, `share` of the way from one layer surface to another.
+auto between(const CubedSphere& sphere, const HeadShape& shape, double share, Radius from,
+             Radius to) {
+  return [&sphere, &shape, share, from, to](int s) -> Vec3 {
+    const HeadShape::Ray ray = shape.ray(sphere.direction(s));
+    return shape.centre() + ray.direction * ((1 - share) * ray.*from + share * ray.*to);
+  };
+}
+
+constexpr double kMeanInwards = 0.84;  ///< brain surface over skin, seen from the centre
+
+}  // namespace
+
+// Shares wanted: cerebellum 11 %, brainstem 2 to 2.5 % of the brain [caviness1996]; the bounds are
+// estimates [E] that give them within the cell size.
+int brain_part(const Vec3& p, const Vec3& scale) {
+  const Vec3 q = p.cwiseQuotient(scale);
+  const bool left = q.y() > 0;
+  if (std::abs(q.y()) < 0.0135 && q.x() > -0.026 && q.x() < 0.004 && q.z() < 0.025)
+    return part::kBrainstem;
+  const double tentorium_z = 0.024 + 0.014 * smooth_step(0.05, 0.0, std::abs(q.y()));
+  if (q.z() < tentorium_z && q.x() < -0.008)
+    return left ? part::kCerebellumLeft : part::kCerebellumRight;
+  return left ? part::kCerebrumLeft : part::kCerebrumRight;
+}
+
+HeadMesh add_cranium(MeshDraft& draft, const HeadShape& shape, const HeadResolution& resolution) {
+  HeadMesh head{.sphere = CubedSphere(resolution.n),
+                .brain_surface = {},
+                .skull_inner = {},
+                .skull_outer = {},
+                .skin = {}};
+  const CubedSphere& sphere = head.sphere;
+  const auto place = [&](const Vec3& p) -> Vec3 {
+    const double radius = p.norm();
+    if (radius == 0) return shape.centre();
+    const HeadShape::Ray ray = shape.ray(p / radius);
+    const double at_surface = ray.brain / ray.skin;
+    // A factor that depends on direction alone would tear the cells at the centre.
+    const double inwards = kMeanInwards + (at_surface - kMeanInwards) * radius * radius;
+    return shape.centre() + inwards * shape.spread(p);
+  };
+  head.brain_surface = add_ball(draft, sphere, place,
+                                [&](const Vec3& p) { return brain_part(place(p), shape.scale()); });
+  const auto everywhere = [](int) { return true; };
+  const HeadStrip strip(sphere);
+  const auto off_strip = [&strip](int quad) { return !strip.holds_quad(quad); };
+  const auto grow = [&](std::vector<int> nodes, int layers, Radius from, Radius to,
+                        const auto& where, int part) {
+    for (int layer = 1; layer <= layers; ++layer)
+      nodes =
+          add_layer(draft, sphere, nodes, where,
+                    between(sphere, shape, static_cast<double>(layer) / layers, from, to), part);
+    return nodes;
+  };
+  using Ray = HeadShape::Ray;
+  head.skull_inner = grow(head.brain_surface, resolution.csf_layers, &Ray::brain, &Ray::skull_inner,
+                          everywhere, part::kCsf);
+  head.skull_outer = grow(head.skull_inner, resolution.skull_layers, &Ray::skull_inner,
+                          &Ray::skull_outer, everywhere, part::kDiploe);
+  head.skin = grow(head.skull_outer, resolution.scalp_layers, &Ray::skull_outer, &Ray::skin,
+                   off_strip, part::kScalp);
+  return head;
+}
+
+HeadStrip::HeadStrip(const CubedSphere& sphere)
+    : sphere_(&sphere), front_rows_((sphere.n() + 2) / 4) {
+  const int n = sphere.n();
+  rows = n + front_rows_;
+  columns = n;
+  face_row = n / 2;
+  for (const auto& quad : sphere.quads()) {
+    bool bottom = true, front = true;
+    for (const int s : quad) {
+      bottom = bottom && sphere.lattice(s)[2] == 0;
+      front = front && sphere.lattice(s)[0] == n && sphere.lattice(s)[2] <= front_rows_;
+    }
+    in_strip.push_back(bottom || front);
+  }
+}
+
+int HeadStrip::node(int row, int column) const {
+  const int n = sphere_->n();
+  return row <= n ? sphere_->surface_index(row, column, 0)
+                  : sphere_->surface_index(n, column, row - n);
+}
+
+}  // namespace crosswalk::fe::generate

@@ -1,0 +1,239 @@
+#include "fe_node/generate/ligaments.h"
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/error.h"
+#include "fe_node/generate/part_ids.h"
+#include "fe_node/generate/spine_data.h"
+
+namespace crosswalk::fe::generate {
+
+namespace {
+
+/// Force and elongation at failure of a whole ligament; lines share the force. Medians of ligament
+/// tests [yoganandan2000] [myklebust1988] [dvorak1988] [mattucci2012] [L, medium].
+struct LigamentData {
+  const char* name;
+  double failure_force;       ///< N
+  double failure_elongation;  ///< mm
+  double slack = 0;           ///< mm
+};
+
+constexpr LigamentData kAll{"ALL", 250, 6}, kPll{"PLL", 250, 4.5}, kFlavum{"LF", 130, 6},
+    kCapsule{"CL", 200, 7}, kInterspinous{"ISL", 60, 6}, kAaom{"AAOM", 232, 10},
+    kPaom{"PAOM", 83, 8}, kAaam{"AAAM", 263, 10}, kPaam{"PAAM", 111, 9},
+    kCapsuleC0C1{"CL_C0C1", 320, 10}, kCapsuleC1C2{"CL_C1C2", 314, 9, 1.5}, kAlar{"alar", 428, 6},
+    kApical{"apical", 200, 5}, kCruciform{"cruciform", 860, 6}, kTectorial{"tectorial", 76, 6};
+
+/// Elongation over that at failure, force over failure force [yoganandan2000] [E shape].
+constexpr std::array<std::pair<double, double>, 13> kShape{{{-2, 0},
+                                                            {0, 0},
+                                                            {0.10, 0.02},
+                                                            {0.20, 0.06},
+                                                            {0.30, 0.13},
+                                                            {0.40, 0.24},
+                                                            {0.60, 0.52},
+                                                            {0.80, 0.80},
+                                                            {1.0, 1.0},
+                                                            {1.2, 0.85},
+                                                            {1.6, 0.45},
+                                                            {2.5, 0},
+                                                            {5, 0}}};
+
+/// Facet cartilage: nominal strain and stress in compression (Pa) [vivaplus2022]; two layers of 0.5
+/// mm over 100 mm2, behind a gap of 0.4 mm [L, medium].
+constexpr std::array<std::pair<double, double>, 6> kCartilage{
+    {{0.05, 0.42e6}, {0.1, 1.01e6}, {0.2, 3.06e6}, {0.3, 7.17e6}, {0.4, 15.4e6}, {0.5, 32.1e6}}};
+constexpr double kFacetGap = 0.4e-3, kCartilageThickness = 1e-3, kFacetArea = 100e-6;
+constexpr double kFacetStrut = 16e-3;  ///< length; sliding by s lengthens it by s^2 / (2 length)
+
+/// Translational stiffness of one pivot strut, N/m; four meet, giving 0.6 to 2 MN/m, the order of
+/// whole segments in compression (1.3 MN/m) [moroney1988] [E].
+constexpr double kPivotStiffness = 0.8e6;
+
+class Builder {
+ public:
+  Builder(ModelDraft& draft, const Spine& spine, const Vec3& head_scale)
+      : draft_(draft), spine_(spine), s_(1e-3 * spine.scale), head_scale_(head_scale) {}
+
+  void run() {
+    for (int level = C2; level <= T1; ++level) add_level(static_cast<Level>(level));
+    add_upper();
+    add_pivots();
+    for (int level = C2; level <= T1; ++level) add_facets(static_cast<Level>(level));
+  }
+
+ private:
+  struct End {
+    Level level;
+    Vec3 point;  ///< N
+  };
+  using Ends = std::vector<std::pair<End, End>>;
+
+  /// Point in a body's axes, reference mm; for C0 in the Frankfurt frame of the reference head.
+  End at(Level level, double x, double y, double z) const {
+    const Vec3 local = level == C0 ? Vec3(1e-3 * Vec3(x, y, z).cwiseProduct(head_scale_))
+                                   : Vec3(s_ * Vec3(x, y, z));
+    return {level, spine_[level].X_NB * local};
+  }
+  /// Point in body lengths already scaled, m.
+  End on(Level level, double x, double y, double z) const {
+    return {level, spine_[level].at(x, y, z)};
+  }
+
+  int node(const End& end) {
+    const int id = draft_.mesh.add_node(end.point);
+    draft_.mesh.attach(spine_[end.level].part, {id});
+    return id;
+  }
+
+  void add_line(int part, const End& a, const End& b) {
+    const int from = node(a), to = node(b);
+    draft_.mesh.lines.push_back({from, to, part});
+  }
+
+  void add_part(int id, const std::string& name, const CurveSpec& curve, const std::string& source,
+                Grade grade) {
+    draft_.curves.push_back(curve);
+    draft_.parts.push_back(
+        {.id = id,
+         .name = name,
+         .density = 0,
+         .law = mat::SpringNonlinearElastic{.curve = DeckId(curve.id), .rate_curve = {}},
+         .section = SpringSection{},
+         .source = source,
+         .grade = grade});
+  }
+
+  void add_ligament(const LigamentData& data, const std::string& where, const Ends& ends) {
+    const int id = part::kFirstLigament + ligaments_++;
+    CurveSpec curve{.id = id, .name = data.name + where, .points = {}};
+    for (const auto& [e, f] : kShape)
+      curve.points.emplace_back(1e-3 * (e * data.failure_elongation + data.slack),
+                                f * data.failure_force / static_cast<double>(ends.size()));
+    add_part(id, data.name + where, curve, "failure force and elongation of ligament tests",
+             Grade::Literature);
+    for (const auto& [a, b] : ends) add_line(id, a, b);
+  }
+
+  void add_level(Level upper) {
+    const Level lower = static_cast<Level>(upper + 1);
+    const SpineBody &u = spine_[upper], &l = spine_[lower];
+    const std::string where = "_" + u.name + l.name;
+    Ends front, back, flavum, spinous, capsule;
+    for (const int i : {-1, 0, 1}) {
+      const double yu = 0.25 * i * u.width(), yl = 0.25 * i * l.width();
+      front.push_back({on(upper, 0.5 * u.depth(), yu, 0), on(lower, 0.5 * l.depth(), yl, 0)});
+      back.push_back({on(upper, -0.5 * u.depth(), yu, 0), on(lower, -0.5 * l.depth(), yl, 0)});
+    }
+    for (const int side : {-1, 1}) {
+      const double y = side * 6 * s_;
+      flavum.push_back({on(upper, -0.5 * u.depth() - u.canal_depth, y, -3 * s_),
+                        on(lower, -0.5 * l.depth() - l.canal_depth, y, 3 * s_)});
+      const Vec3 centre = spine_.facet_centre(upper, side), normal = spine_.facet_normal(upper);
+      const Vec3 across = Vec3::UnitY(), along = normal.cross(across);
+      for (const Vec3& rim : {across, along, Vec3(-across), Vec3(-along)}) {
+        const Vec3 p = centre + 5 * s_ * rim;
+        capsule.push_back({{upper, p + 3 * s_ * normal}, {lower, p - 3 * s_ * normal}});
+      }
+    }
+    for (const double share : {0.5, 0.9}) {
+      const auto along = [share](const SpineBody& b) {
+        return -0.5 * b.depth() - 0.5 * b.canal_depth - share * b.spinous;
+      };
+      spinous.push_back({on(upper, along(u), 0, -3 * s_), on(lower, along(l), 0, 3 * s_)});
+    }
+    add_ligament(kAll, where, front);
+    add_ligament(kPll, where, back);
+    add_ligament(kFlavum, where, flavum);
+    add_ligament(kCapsule, where, capsule);
+    add_ligament(kInterspinous, where, spinous);
+  }
+
+  /// Occiput, atlas and axis. Attachment points [E] after anatomy plates.
+  void add_upper() {
+    const SpineBody& axis = spine_[C2];
+    const double back_of_axis = -0.5 * axis.depth() / s_, front_of_axis = 0.5 * axis.depth() / s_;
+    const double dens_tip = 0.5 * axis.height / s_ + 15.5;
+    const double lamina = back_of_axis - axis.canal_depth / s_;
+    Ends aaom, paom, aaam, paam, c0c1, c1c2, tectorial;
+    for (const double y : {-8.0, 0.0, 8.0}) {
+      aaom.push_back({at(C0, 0, y, -23), at(C1, 17, y, 3)});
+      paom.push_back({at(C0, -36, y, -25.5), at(C1, -22, y, 3)});
+      aaam.push_back({at(C1, 17, y, -3), at(C2, front_of_axis, y, 0)});
+      tectorial.push_back({at(C0, -5, 0.5 * y, -18), at(C2, back_of_axis, 0.5 * y, 0)});
+    }
+    for (const double y : {-6.0, 6.0}) paam.push_back({at(C1, -22, y, -3), at(C2, lamina, y, 0)});
+    for (const double side : {-1.0, 1.0})
+      for (const auto& [x, y] : {std::pair{6.0, 20.0}, {-6.0, 20.0}, {0.0, 15.0}, {0.0, 25.0}}) {
+        c0c1.push_back({at(C0, -11 + x, side * y, -22), at(C1, x, side * y, 5)});
+        c1c2.push_back({at(C1, x, side * y, -6), at(C2, -4 + x, side * (y - 3), 8)});
+      }
+    add_ligament(kAaom, "", aaom);
+    add_ligament(kPaom, "", paom);
+    add_ligament(kAaam, "", aaam);
+    add_ligament(kPaam, "", paam);
+    add_ligament(kCapsuleC0C1, "", c0c1);
+    add_ligament(kCapsuleC1C2, "", c1c2);
+    add_ligament(kAlar, "",
+                 {{at(C2, 0, 1, dens_tip), at(C0, -8, 14, -23.5)},
+                  {at(C2, 0, -1, dens_tip), at(C0, -8, -14, -23.5)}});
+    add_ligament(kApical, "", {{at(C2, 0, 0, dens_tip), at(C0, -2, 0, -23.5)}});
+    add_ligament(kCruciform, "",
+                 {{at(C1, -1, 0, 2), at(C0, -2, 0, -23.5)},
+                  {at(C1, -1, 0, -2), at(C2, back_of_axis, 0, 0)}});
+    add_ligament(kTectorial, "", tectorial);
+  }
+
+  void add_pivots() {
+    const CurveSpec curve{
+        .id = part::kFirstJointStrut,
+        .name = "pivot strut",
+        .points = {{-1e-2, -1e-2 * kPivotStiffness}, {1e-2, 1e-2 * kPivotStiffness}}};
+    add_part(part::kFirstJointStrut, "pivot_struts", curve, "condyles and dens as pivots",
+             Grade::Estimate);
+    for (const double x : {-10.0, 10.0})
+      for (const double y : {-20.0, 20.0}) {
+        add_line(part::kFirstJointStrut, at(C1, x, y, -3.5),
+                 at(C0, kCondyleFrankfurtX, 0, kCondyleFrankfurtZ));
+        add_line(part::kFirstJointStrut, at(C2, -6 + 0.6 * x, 0.75 * y, 8), at(C1, 5, 0, -4.5));
+      }
+  }
+
+  void add_facets(Level upper) {
+    if (facet_curve_ == 0) {
+      CurveSpec curve{.id = part::kFacet, .name = "facet cartilage", .points = {}};
+      for (auto point = kCartilage.rbegin(); point != kCartilage.rend(); ++point)
+        curve.points.emplace_back(-kFacetGap - point->first * kCartilageThickness,
+                                  -point->second * kFacetArea);
+      curve.points.insert(curve.points.end(), {{-kFacetGap, 0}, {0, 0}, {1e-2, 0}});
+      facet_curve_ = curve.id;
+      add_part(part::kFacet, "facets", curve, "cartilage curve of VIVA+, gap and area estimated",
+               Grade::Estimate);
+    }
+    const Level lower = static_cast<Level>(upper + 1);
+    const Vec3 half = 0.5 * kFacetStrut * spine_.facet_normal(upper);
+    for (const int side : {-1, 1}) {
+      const Vec3 centre = spine_.facet_centre(upper, side);
+      add_line(part::kFacet, {lower, centre - half}, {upper, centre + half});
+    }
+  }
+
+  ModelDraft& draft_;
+  const Spine& spine_;
+  double s_;
+  Vec3 head_scale_;
+  int ligaments_ = 0;
+  int facet_curve_ = 0;
+};
+
+}  // namespace
+
+void add_ligaments(ModelDraft& draft, const Spine& spine, const Vec3& head_scale) {
+  Builder(draft, spine, head_scale).run();
+}
+
+}  // namespace crosswalk::fe::generate

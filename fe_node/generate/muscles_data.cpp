@@ -1,0 +1,88 @@
+#include "fe_node/generate/muscles_data.h"
+
+namespace crosswalk::fe::generate {
+
+namespace {
+
+using enum Site;
+
+constexpr std::array<Strand, 72> kStrands{{
+    {"sternocleidomastoid_sternal", 193.80, {MastoidTip, -1}, {SternalNotch, -1}},
+    {"sternocleidomastoid_clavicular", 96.30, {MastoidTip, -1}, {ClavicleMedial, -1}},
+    {"trapezius_descending", 117.90, {NuchalMedial, -1}, {ClavicleLateral, -1}},
+    {"trapezius_descending", 117.90, {Spinous, 3}, {ClavicleLateral, -1}},
+    {"trapezius_descending", 117.90, {Spinous, 5}, {Acromion, -1}},
+    {"trapezius_transverse", 247.50, {Spinous, 6}, {Acromion, -1}},
+    {"trapezius_transverse", 247.50, {Spinous, 7}, {Acromion, -1}},
+    {"levator_scapulae", 61.08, {Transverse, 1}, {ScapulaSuperior, -1}},
+    {"levator_scapulae", 61.08, {Transverse, 2}, {ScapulaSuperior, -1}},
+    {"levator_scapulae", 61.08, {Transverse, 3}, {ScapulaSuperior, -1}},
+    {"levator_scapulae", 61.08, {Transverse, 4}, {ScapulaSuperior, -1}},
+    {"splenius_capitis", 83.33, {MastoidTip, -1}, {Spinous, 5}},
+    {"splenius_capitis", 83.33, {NuchalLateral, -1}, {Spinous, 7}},
+    {"splenius_capitis", 83.33, {NuchalLateral, -1}, {Spinous, 9}},
+    {"splenius_cervicis", 49.50, {Transverse, 1}, {Spinous, 10}},
+    {"splenius_cervicis", 49.50, {Transverse, 2}, {Spinous, 10}},
+    {"semispinalis_capitis", 106.67, {NuchalInferior, -1}, {Transverse, 4}},
+    {"semispinalis_capitis", 106.67, {NuchalInferior, -1}, {Transverse, 6}},
+    {"semispinalis_capitis", 106.67, {NuchalInferior, -1}, {Transverse, 8}},
+    {"semispinalis_capitis", 106.67, {NuchalInferior, -1}, {Transverse, 10}},
+    {"semispinalis_cervicis", 92.08, {Spinous, 2}, {Transverse, 9}},
+    {"semispinalis_cervicis", 92.08, {Spinous, 3}, {Transverse, 9}},
+    {"semispinalis_cervicis", 92.08, {Spinous, 5}, {Transverse, 10}},
+    {"semispinalis_cervicis", 92.08, {Spinous, 6}, {Transverse, 10}},
+    {"longissimus_capitis", 37.50, {MastoidTip, -1}, {Transverse, 5}},
+    {"longissimus_capitis", 37.50, {MastoidTip, -1}, {Transverse, 9}},
+    {"longissimus_cervicis", 52.87, {Transverse, 2}, {Transverse, 9}},
+    {"longissimus_cervicis", 52.87, {Transverse, 4}, {Rib3, -1}},
+    {"longissimus_cervicis", 52.87, {Transverse, 6}, {Rib3, -1}},
+    {"iliocostalis_cervicis", 42.60, {Transverse, 5}, {Rib3, -1}},
+    {"multifidus", 88.52, {Spinous, 2}, {Articular, 5}},
+    {"multifidus", 88.52, {Spinous, 3}, {Articular, 6}},
+    {"multifidus", 88.52, {Spinous, 4}, {Articular, 7}},
+    {"multifidus", 88.52, {Spinous, 5}, {Articular, 8}},
+    {"multifidus", 88.52, {Spinous, 7}, {Articular, 10}},
+    {"longus_capitis", 29.73, {Basiocciput, -1}, {Transverse, 3}},
+    {"longus_capitis", 29.73, {Basiocciput, -1}, {Transverse, 4}},
+    {"longus_capitis", 29.73, {Basiocciput, -1}, {Transverse, 6}},
+    {"longus_colli", 23.52, {Front, 1}, {Front, 4}},
+    {"longus_colli", 23.52, {Front, 2}, {Front, 5}},
+    {"longus_colli", 23.52, {Front, 3}, {Front, 7}},
+    {"longus_colli", 23.52, {Front, 5}, {Front, 8}},
+    {"scalenus_anterior", 41.05, {Transverse, 4}, {Rib1, -1}},
+    {"scalenus_anterior", 41.05, {Transverse, 6}, {Rib1, -1}},
+    {"scalenus_medius", 46.02, {Transverse, 2}, {Rib1, -1}},
+    {"scalenus_medius", 46.02, {Transverse, 4}, {Rib1, -1}},
+    {"scalenus_medius", 46.02, {Transverse, 5}, {Rib1, -1}},
+    {"scalenus_medius", 46.02, {Transverse, 7}, {Rib1, -1}},
+    {"scalenus_posterior", 89.20, {Transverse, 6}, {Rib2, -1}},
+    {"rectus_capitis_posterior_major", 54.10, {NuchalInferior, -1}, {Spinous, 2}},
+    {"rectus_capitis_posterior_minor", 90.30, {NuchalInferior, -1}, {Spinous, 1}},
+    {"obliquus_capitis_superior", 92.20, {NuchalLateral, -1}, {Transverse, 1}},
+    {"obliquus_capitis_inferior", 171.30, {Transverse, 1}, {Spinous, 2}},
+    {"rectus_capitis_lateralis", 78.30, {JugularProcess, -1}, {Transverse, 1}},
+    {"rectus_capitis_anterior", 8.00, {Basiocciput, -1}, {Front, 1}},
+    {"intertransversarii", 35.28, {Transverse, 1}, {Transverse, 2}},
+    {"intertransversarii", 35.28, {Transverse, 2}, {Transverse, 3}},
+    {"intertransversarii", 35.28, {Transverse, 3}, {Transverse, 4}},
+    {"intertransversarii", 35.28, {Transverse, 4}, {Transverse, 5}},
+    {"intertransversarii", 35.28, {Transverse, 5}, {Transverse, 6}},
+    {"intertransversarii", 35.28, {Transverse, 6}, {Transverse, 7}},
+    {"interspinales", 16.18, {Spinous, 2}, {Spinous, 3}},
+    {"interspinales", 16.18, {Spinous, 3}, {Spinous, 4}},
+    {"interspinales", 16.18, {Spinous, 4}, {Spinous, 5}},
+    {"interspinales", 16.18, {Spinous, 5}, {Spinous, 6}},
+    {"interspinales", 16.18, {Spinous, 6}, {Spinous, 7}},
+    {"sternohyoid", 34.10, {Hyoid, -1}, {SternalNotch, -1}},
+    {"sternothyroid", 51.40, {Hyoid, -1}, {Rib1, -1}},
+    {"omohyoid", 44.40, {Hyoid, -1}, {ScapulaSuperior, -1}},
+    {"serratus_posterior_superior", 98.70, {Spinous, 7}, {RibsBack, -1}},
+    {"serratus_posterior_superior", 98.70, {Spinous, 8}, {RibsBack, -1}},
+    {"rhomboid_minor", 95.60, {Spinous, 7}, {ScapulaMedial, -1}},
+}};
+
+}  // namespace
+
+std::span<const Strand> neck_strands() { return kStrands; }
+
+}  // namespace crosswalk::fe::generate

@@ -1,0 +1,64 @@
+// Parts, laws and curves of a generated model in SI, before they are written as a deck.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "fe_node/deck/material_records.h"
+#include "fe_node/generate/mesh_draft.h"
+
+namespace crosswalk::fe::generate {
+
+struct SolidSection {
+  double hourglass = 0.05;  ///< coefficient of the stiffness form, on the shear modulus
+};
+struct ShellSection {
+  double thickness = 0;  ///< m
+  int points = 5;
+  bool is_membrane = false;
+};
+struct TrussSection {
+  double area = 0;  ///< m2
+};
+struct SpringSection {};
+
+/// How well a number is known: read in the named source, from the literature by memory, or
+/// estimated.
+enum class Grade { Source, Literature, Estimate };
+const char* mark(Grade grade);  ///< "[S]", "[L]", "[E]"
+
+struct PartSpec {
+  int id = 0;
+  std::string name;
+  double density = 0;  ///< kg/m3; 0 for springs
+  MaterialLaw law;     ///< SI
+  std::variant<SolidSection, ShellSection, TrussSection, SpringSection> section;
+  std::string source;  ///< where the numbers come from, in few words
+  Grade grade = Grade::Estimate;
+};
+
+struct CurveSpec {
+  int id = 0;
+  std::string name;
+  std::vector<std::pair<double, double>> points;  ///< SI
+};
+
+struct PartSetSpec {
+  std::string name;
+  std::vector<int> parts;
+};
+
+struct ModelDraft {
+  std::string title;
+  MeshDraft mesh;
+  std::vector<PartSpec> parts;
+  std::vector<CurveSpec> curves;
+  std::vector<PartSetSpec> part_sets;
+
+  const PartSpec& part(int id) const;
+  PartSpec& part(int id);
+};
+
+}  // namespace crosswalk::fe::generate

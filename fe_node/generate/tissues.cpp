@@ -1,0 +1,86 @@
+#include "fe_node/generate/tissues.h"
+
+#include "fe_node/generate/part_ids.h"
+
+namespace crosswalk::fe::generate {
+
+namespace {
+
+constexpr double kBrainBulk = 2.19e9;  // Pa, as water [mao2013]
+
+PartSpec brain(int id, const char* name, double shear_short, double shear_long, const char* source,
+               Grade grade) {
+  return {.id = id,
+          .name = name,
+          .density = 1040,
+          .law = mat::Viscoelastic{.bulk = kBrainBulk,
+                                   .shear_short = shear_short,
+                                   .shear_long = shear_long,
+                                   .decay = 80},
+          .section = SolidSection{.hourglass = 0.05},
+          .source = source,
+          .grade = grade};
+}
+
+}  // namespace
+
+std::vector<PartSpec> head_tissues() {
+  const char* brain_source = "GHBMC grey matter G0 6, Ginf 1.2 kPa; decay 80/s usual";
+  const char* stem_source = "twice the cerebrum, after the ratio in WSUHIM";
+  return {
+      {.id = part::kScalp,
+       .name = "scalp",
+       .density = 1100,
+       .law =
+           mat::Viscoelastic{.bulk = 20e6, .shear_short = 1.7e6, .shear_long = 0.68e6, .decay = 20},
+       .section = SolidSection{.hourglass = 0.05},
+       .source = "K as GHBMC flesh; shear as scalp tests",
+       .grade = Grade::Literature},
+      // Sandwich of tables 15 and 12 GPa, 1.8 and 1.4 mm, on 1 GPa diploe, spread evenly over 6.5
+      // mm.
+      {.id = part::kDiploe,
+       .name = "skull",
+       .density = 1750,
+       .law = mat::Elastic{.youngs = 7.2e9, .poisson = 0.22},
+       .section = SolidSection{.hourglass = 0.05},
+       .source = "membrane mean of tables and diploe",
+       .grade = Grade::Estimate},
+      {.id = part::kFirstVertebra - 10,
+       .name = "occiput",
+       .density = 1750,
+       .law = mat::Rigid{.youngs = 7.2e9, .poisson = 0.22},
+       .section = SolidSection{},
+       .source = "skull base round the foramen magnum, rigid",
+       .grade = Grade::Estimate},
+      {.id = part::kCsf,
+       .name = "csf",
+       .density = 1000,
+       .law =
+           mat::Viscoelastic{.bulk = 2.19e9, .shear_short = 500, .shear_long = 500, .decay = 100},
+       .section = SolidSection{.hourglass = 0.05},
+       .source = "water; shear modulus 0.5 kPa numerical",
+       .grade = Grade::Literature},
+      brain(part::kCerebrumLeft, "cerebrum_left", 6e3, 1.2e3, brain_source, Grade::Source),
+      brain(part::kCerebrumRight, "cerebrum_right", 6e3, 1.2e3, brain_source, Grade::Source),
+      brain(part::kCerebellumLeft, "cerebellum_left", 6e3, 1.2e3, brain_source, Grade::Source),
+      brain(part::kCerebellumRight, "cerebellum_right", 6e3, 1.2e3, brain_source, Grade::Source),
+      brain(part::kBrainstem, "brainstem", 12e3, 2.4e3, stem_source, Grade::Literature),
+      {.id = part::kFace,
+       .name = "face",
+       .density = 1250,
+       .law = mat::Elastic{.youngs = 500e6, .poisson = 0.23},
+       .section = SolidSection{.hourglass = 0.05},
+       .source = "bone, muscle and sinuses as one block",
+       .grade = Grade::Estimate},
+      {.id = part::kFlesh,
+       .name = "neck_flesh",
+       .density = 1000,
+       .law =
+           mat::Viscoelastic{.bulk = 20e6, .shear_short = 30e3, .shear_long = 10e3, .decay = 100},
+       .section = SolidSection{.hourglass = 0.05},
+       .source = "passive muscle and fat, airway spread into the density",
+       .grade = Grade::Estimate},
+  };
+}
+
+}  // namespace crosswalk::fe::generate

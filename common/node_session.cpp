@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "common/log.h"
 #include "crosswalk/msg/node_hello.hpp"
 
 namespace crosswalk {
@@ -124,6 +125,8 @@ void NodeSession::leave(ExitCode code, std::string reason) {
 void NodeSession::set_state(NodeState state, std::int64_t window) {
   state_ = static_cast<int>(state);
   window_ = window;
+  if (manifest_ && window >= 0)
+    set_log_time(1e-9 * static_cast<double>(window * manifest_->window_ns));
 }
 
 msg::node_status NodeSession::status() const {

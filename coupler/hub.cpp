@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include "common/log.h"
 #include "common/node_session.h"
 #include "crosswalk/msg/recorder_ack.hpp"
 #include "crosswalk/msg/run_event.hpp"
@@ -219,6 +220,11 @@ void Hub::watch(Role role, const std::string& what, double waited_s) {
     fail(ExitCode::TimeOut,
          fmt::format("is alive but has not advanced for {:.0f} s", patience_.stalled_s));
   }
+}
+
+void Hub::set_window(std::int64_t window) {
+  window_ = window;
+  set_log_time(1e-9 * static_cast<double>(window * plan_.window_ns));
 }
 
 void Hub::wait_for(const std::vector<Role>& whom, const std::string& what,

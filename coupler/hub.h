@@ -85,7 +85,8 @@ class Hub {
                 const std::function<bool()>& done, const std::function<void()>& again,
                 double first_resend_s);
   msg::node_status status() const;
-  void set_window(std::int64_t window) { window_ = window; }
+  /// The window about to be done; also the time stamp of the log.
+  void set_window(std::int64_t window);
   int resends() const { return resends_; }
 
  private:

@@ -104,6 +104,9 @@ TEST_F(ToyRun, InterruptEndsItInGoodOrder) {
   ASSERT_TRUE(status) << run.output();
   EXPECT_EQ(status->code, 130) << run.output();
   EXPECT_THAT(run.output(), HasSubstr("crosswalk: interrupted at "));
+  EXPECT_THAT(
+      text_of(out("a") / "logs/coupler.log"),
+      testing::ContainsRegex("\\[ *[0-9]+\\.[0-9]{3}\\] \\[coupler\\] error stopped on request"));
   EXPECT_THAT(run.output(), HasSubstr("kept in " + out("a").string()));
   EXPECT_TRUE(processes_with(out("a").string()).empty());
 }

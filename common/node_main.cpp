@@ -27,6 +27,7 @@ struct RunOptions {
   std::string run_id, url;
   int threads = 0;
   double wait_s = 300;
+  bool resume = false;
   bool is_verbose = false;
 };
 
@@ -55,7 +56,8 @@ ExitCode run(const NodeProgram& program, const RunOptions& options,
                      .url = options.url.empty() ? default_lcm_url(options.run_id) : options.url,
                      .directory = directory,
                      .threads = options.threads,
-                     .wait_s = options.wait_s};
+                     .wait_s = options.wait_s,
+                     .resume = options.resume};
   log_info("{} {}, run '{}', scenario '{}' (digest {:016x})", program.name, version_text(),
            context.run_id, context.scenario.name, context.scenario.digest);
   write_provenance(directory, context.run_id, context.scenario.digest, command);
@@ -130,6 +132,7 @@ int node_main(int argc, char** argv, const NodeProgram& program) {
   run_command->add_option("--out", options.out, "Run folder; runs/<run id> by default");
   run_command->add_option("--threads", options.threads, "Threads of the solver")
       ->check(CLI::Range(1, 256));
+  run_command->add_flag("--resume", options.resume, "Continue from the latest checkpoint in --out");
   run_command->add_option("--wait-s", options.wait_s, "Patience with peers that have not joined, s")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);

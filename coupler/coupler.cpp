@@ -18,10 +18,22 @@ Coupler::Coupler(CouplerSettings settings, MbLink& mb, FeLink* fe, RecordStream*
       audit_(settings_.limits) {}
 
 std::int64_t Coupler::run(const std::vector<InterfaceBody>& bodies) {
-  state_ = start_state(bodies);
+  if (state_.motion.empty()) state_ = start_state(bodies);
   while (advance()) {
   }
   return state_.window;
+}
+
+void Coupler::save(ByteWriter& out) const {
+  put(out, state_);
+  out.put(audit_.books());
+  out.put(seen_);
+}
+
+void Coupler::load(ByteReader& in) {
+  state_ = get_coupling_state(in);
+  audit_.continue_from(in.get<EnergyAudit::Books>());
+  seen_ = in.get<Seen>();
 }
 
 bool Coupler::advance() {
@@ -35,12 +47,15 @@ bool Coupler::advance() {
   note_events(result);
 
   const std::int64_t now_ns = state_.window * settings_.window_ns;
-  hooks_.progress({state_.window - 1, now_ns, end_ns(), audit_.balance_percent(), head_contact_});
+  hooks_.progress(
+      {state_.window - 1, now_ns, end_ns(), audit_.balance_percent(), seen_.head_contact});
+  hooks_.after_window(state_.window);
   return now_ns < end_ns();
 }
 
 std::int64_t Coupler::end_ns() const {
-  const std::int64_t start = contact_ns_ >= 0 ? contact_ns_ : state_.window * settings_.window_ns;
+  const std::int64_t start =
+      seen_.contact_ns >= 0 ? seen_.contact_ns : state_.window * settings_.window_ns;
   return start + settings_.duration_ns;
 }
 
@@ -58,23 +73,23 @@ void Coupler::note_events(const WindowResult& result) {
     if (records_ != nullptr) records_->event(t_ns, level, text);
     hooks_.tell(level, text);
   };
-  if (contact_ns_ < 0 && result.mb.first_contact) {
-    contact_ns_ = t_ns;
+  if (seen_.contact_ns < 0 && result.mb.first_contact) {
+    seen_.contact_ns = t_ns;
     tell(EventLevel::Info, fmt::format("first contact of car and pedestrian at t = {:.3f} ms",
                                        1e-6 * static_cast<double>(t_ns)));
   }
-  if (contact_ns_ < 0 && t_ns > settings_.first_contact_ns) {
+  if (seen_.contact_ns < 0 && t_ns > settings_.first_contact_ns) {
     throw NumericalError(
         1e-9 * static_cast<double>(t_ns),
         "car and pedestrian have not touched; check posture, speed and the start gap of [vehicle]");
   }
   // 10 N, the threshold of the first contact as well.
-  if (!head_contact_ && result.fe.head_contact_force > 10) {
-    head_contact_ = true;
+  if (!seen_.head_contact && result.fe.head_contact_force > 10) {
+    seen_.head_contact = true;
     tell(EventLevel::Info, fmt::format("the head touches the car at t = {:.3f} ms",
                                        1e-6 * static_cast<double>(t_ns)));
   }
-  if (!result.converged && ++not_converged_ == 1) {
+  if (!result.converged && ++seen_.not_converged == 1) {
     tell(EventLevel::Warning,
          fmt::format("the implicit iteration of window {} stopped at a residual of {:.1e}",
                      result.id.window, result.residual));

@@ -30,6 +30,8 @@ struct Progress {
 /// What the loop needs from its surroundings; a test fills in less.
 struct CouplerHooks {
   std::function<void(std::int64_t window)> before_window = [](std::int64_t) {};
+  /// After a window is done and booked, with the number of the next.
+  std::function<void(std::int64_t next)> after_window = [](std::int64_t) {};
   std::function<void(const Progress&)> progress = [](const Progress&) {};
   std::function<void(EventLevel, const std::string&)> tell = [](EventLevel, const std::string&) {};
   std::function<int()> resends = [] { return 0; };
@@ -40,8 +42,11 @@ class Coupler {
   Coupler(CouplerSettings settings, MbLink& mb, FeLink* fe, RecordStream* records,
           CouplerHooks hooks);
 
-  /// Runs to the end. Returns the number of windows done.
+  /// Runs to the end, from the bodies' start or from where load() has put it. Returns the number of
+  /// windows done.
   std::int64_t run(const std::vector<InterfaceBody>& bodies);
+  void save(ByteWriter& out) const;
+  void load(ByteReader& in);
   /// One window; false when the run's duration is over.
   bool advance();
 
@@ -60,9 +65,11 @@ class Coupler {
   CouplerHooks hooks_;
   CouplingState state_;
   EnergyAudit audit_;
-  std::int64_t contact_ns_ = -1;  ///< end of the window of first contact
-  bool head_contact_ = false;
-  int not_converged_ = 0;
+  struct Seen {
+    std::int64_t contact_ns = -1;  ///< end of the window of first contact
+    bool head_contact = false;
+    int not_converged = 0;
+  } seen_;
 };
 
 }  // namespace crosswalk::coupling

@@ -10,6 +10,7 @@ namespace crosswalk::coupling {
 struct CouplerConfig {
   CouplerSettings settings;
   Patience patience;
+  std::int64_t checkpoint_every = 0;  ///< windows; 0: none
 };
 
 CouplerConfig read_coupling(ConfigDocument& document, const Scenario& scenario);

@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <spdlog/spdlog.h>
 
 #include "common/interrupt.h"
+#include "common/log.h"
 #include "common/node_session.h"
 #include "common/version.h"
-#include "coupler/lcm_link.h"
+#include "coupler/coupler_part.h"
 
 namespace crosswalk::coupling {
 
@@ -20,17 +20,10 @@ void tell(EventLevel level, const std::string& text) {
   const char* name = kNames[std::clamp(static_cast<int>(level), 0, 2)];
   fmt::print("@event {} {}\n", name, wire_text(text));
   std::fflush(stdout);
-  switch (level) {
-    case EventLevel::Info:
-      spdlog::info("{}", text);
-      break;
-    case EventLevel::Warning:
-      spdlog::warn("{}", text);
-      break;
-    case EventLevel::Error:
-      spdlog::error("{}", text);
-      break;
-  }
+  log_text(level == EventLevel::Info      ? LogLevel::Info
+           : level == EventLevel::Warning ? LogLevel::Warning
+                                          : LogLevel::Error,
+           text);
 }
 
 // At most ten lines a second, and the last window's.
@@ -62,6 +55,19 @@ std::string description(const CouplerSettings& s, const std::vector<InterfaceBod
   return out.dump();
 }
 
+std::int64_t checkpoint_to_resume(const RunDirectory& directory) {
+  const auto window = latest_checkpoint(directory.checkpoints());
+  if (!window) {
+    throw UserError(
+        {{directory.checkpoints().string()},
+         "--resume",
+         "a complete checkpoint",
+         "none",
+         "start the run anew; [coupling] checkpoint_every_ms sets how often one is written"});
+  }
+  return *window;
+}
+
 }  // namespace
 
 ExitCode run_coupler(RunContext& context) {
@@ -75,6 +81,8 @@ ExitCode run_coupler(RunContext& context) {
          "it is for comparison only");
   }
 
+  const std::filesystem::path checkpoints = context.directory.checkpoints();
+  const std::int64_t first_window = context.resume ? checkpoint_to_resume(context.directory) : 0;
   Bus bus(open_transport(context.url), context.run_id, Role::Coupler,
           BusFaults::from_environment());
   Hub hub(bus,
@@ -84,7 +92,8 @@ ExitCode run_coupler(RunContext& context) {
            .has_fe = settings.has_fe,
            .scheme = static_cast<int>(settings.scheme.scheme),
            .window_ns = settings.window_ns,
-           .duration_ns = settings.duration_ns},
+           .duration_ns = settings.duration_ns,
+           .first_window = first_window},
           config.patience, interrupt_flag(), tell);
   hub.claim();
   std::int64_t window = 0;
@@ -101,15 +110,28 @@ ExitCode run_coupler(RunContext& context) {
                          [&](std::int64_t n) {
                            window = n;
                            hub.set_window(n);
+                           set_log_time(1e-9 * static_cast<double>(n * settings.window_ns));
                            hub.follow_recorder(n);
+                         },
+                     .after_window =
+                         [&](std::int64_t next) {
+                           if (config.checkpoint_every == 0 || next % config.checkpoint_every != 0)
+                             return;
+                           hub.checkpoint(next);
+                           save_part(checkpoints, next, coupler, mb, fe, hub);
                          },
                      .progress = [&](const Progress& p) { line.show(p); },
                      .tell = tell,
                      .resends = [&hub] { return hub.resends(); }});
     hub.start();
+    if (first_window > 0) {
+      load_part(read_part(checkpoints, Role::Coupler, first_window), coupler, mb, fe, hub);
+      tell(EventLevel::Info,
+           fmt::format("continues from the checkpoint of window {}", first_window));
+    }
     const std::int64_t windows = coupler.run(bodies);
-    spdlog::info("{} windows done, interface energy error {:.3g} J, balance {:.3f} %", windows,
-                 coupler.audit().drift(), coupler.audit().balance_percent());
+    log_info("{} windows done, interface energy error {:.3g} J, balance {:.3f} %", windows,
+             coupler.audit().drift(), coupler.audit().balance_percent());
     return hub.finish(windows - 1) ? ExitCode::Done : ExitCode::RecordIncomplete;
   } catch (const std::exception& error) {
     hub.abort(window, error.what());

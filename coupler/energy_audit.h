@@ -32,20 +32,28 @@ class EnergyAudit {
   /// The finite-element side's and the multibody side's total balance error, per cent of the peak
   /// energy.
   double balance_percent() const;
-  double drift() const { return work_mb_ + work_fe_; }
-  double peak_energy() const { return peak_; }
+  double drift() const { return books_.work_mb + books_.work_fe; }
+  double peak_energy() const { return books_.peak; }
+
+  /// Everything the audit remembers; plain data for checkpoints.
+  struct Books {
+    std::int64_t window = -1, t_ns = 0;
+    int iterations = 0;
+    double residual = 0;
+    bool has_start = false, warned_drift = false, warned_gap = false;
+    double work_mb = 0, work_fe = 0, exchanged = 0;
+    double total = 0, external = 0, start = 0, peak = 0;
+    double largest_gap_m = 0, largest_gap_rad = 0;
+    float gap_position[8] = {}, gap_rotation[8] = {}, velocity_mismatch[8] = {};
+  };
+  const Books& books() const { return books_; }
+  void continue_from(const Books& books) { books_ = books; }
 
  private:
   void book_interface(const WindowResult& result, const CouplingState& after);
 
   AuditLimits limits_;
-  WindowResult last_;
-  bool has_start_ = false;
-  double work_mb_ = 0, work_fe_ = 0, exchanged_ = 0;
-  double total_ = 0, external_ = 0, start_ = 0, peak_ = 0;
-  float gap_position_[8] = {}, gap_rotation_[8] = {}, velocity_mismatch_[8] = {};
-  double gap_m_ = 0, gap_rad_ = 0;
-  bool warned_drift_ = false, warned_gap_ = false;
+  Books books_;
 };
 
 }  // namespace crosswalk::coupling

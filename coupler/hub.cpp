@@ -194,6 +194,7 @@ void Hub::send_manifest() {
   m.scenario_digest = plan_.scenario_digest;
   m.window_ns = plan_.window_ns;
   m.duration_ns = plan_.duration_ns;
+  m.first_window = plan_.first_window;
   m.scheme = plan_.scheme;
   m.has_fe = plan_.has_fe ? 1 : 0;
   m.n_bodies = static_cast<int>(bodies_.size());
@@ -331,6 +332,24 @@ void Hub::follow_recorder(std::int64_t window) {
       {Role::Recorder}, fmt::format("window {} (writing the log)", window),
       [&] { return window - acknowledged_ <= kMaxWindowsAhead; },
       [this] { bus_.publish(status(), 0); }, patience_.first_resend_s);
+}
+
+void Hub::checkpoint(std::int64_t window) {
+  const std::string what = fmt::format("window {} (checkpoint)", window);
+  if (plan_.has_recorder) {
+    wait_for(
+        {Role::Recorder}, what, [&] { return acknowledged_ >= window - 1; },
+        [this] { bus_.publish(status(), 0); }, patience_.first_resend_s);
+  }
+  std::vector<Role> solvers = {Role::Mb};
+  if (plan_.has_fe) solvers.push_back(Role::Fe);
+  const auto all_written = [&] {
+    return std::ranges::all_of(solvers,
+                               [&](Role role) { return peer(role).status.checkpoint == window; });
+  };
+  const auto ask = [&] { control(Command::Checkpoint, window); };
+  ask();
+  wait_for(solvers, what, all_written, ask, 0.5);
 }
 
 bool Hub::finish(std::int64_t last_window) {

@@ -28,7 +28,8 @@ struct RunPlan {
   bool has_recorder = true;
   int scheme = 0;
   std::int64_t window_ns = 20000;
-  std::int64_t duration_ns = 0;  ///< from first contact
+  std::int64_t duration_ns = 0;   ///< from first contact
+  std::int64_t first_window = 0;  ///< > 0: continue from this checkpoint
 };
 
 struct Patience {
@@ -39,7 +40,8 @@ struct Patience {
   double stalled_s = 120;    ///< heartbeats, but no progress in an unanswered window
   double first_resend_s = 0.05;
   double longest_resend_s = 2;
-  double finish_s = 60;  ///< for the recorder to complete its record
+  double checkpoint_s = 120;  ///< for the parts of a checkpoint to be written
+  double finish_s = 60;       ///< for the recorder to complete its record
 };
 
 /// What the coupler knows of one node of the run.
@@ -67,12 +69,15 @@ class Hub {
   void start();
   /// Blocks while the recorder is more than kMaxWindowsAhead behind.
   void follow_recorder(std::int64_t window);
+  /// Has every solver write its part for `window`, the next to do, when all before it is on record.
+  void checkpoint(std::int64_t window);
   /// Ends the run in order. False when the record could not be completed in time.
   bool finish(std::int64_t last_window);
   void abort(std::int64_t window, const std::string& reason);
 
   Bus& bus() { return bus_; }
   RecordStream& records() { return records_; }
+  const RecordStream& records() const { return records_; }
   const Patience& patience() const { return patience_; }
   int n_attached() const { return n_attached_; }
   Peer& peer(Role role) { return peers_[static_cast<std::size_t>(role)]; }

@@ -61,6 +61,13 @@ MbReply LcmMbLink::advance(const MbGrant& grant) {
   return reply;
 }
 
+void LcmMbLink::continue_from(std::int64_t last_seq, int mobility_id,
+                              const Eigen::MatrixXd& mobility) {
+  seq_ = last_seq;
+  if (mobility.size() > 0) mobility_ = to_message(mobility);
+  mobility_.id = mobility_id;
+}
+
 LcmFeLink::LcmFeLink(Hub& hub, const LcmMbLink& mb) : hub_(hub), mb_(mb) {
   done_.h.seq = -1;
   hub.bus().subscribe<msg::fe_done>(Role::Fe, [this](const msg::fe_done& m) {
@@ -83,6 +90,11 @@ FeReply LcmFeLink::advance(const FeGrant& grant) {
   time_.note(std::chrono::duration<double>(Bus::Clock::now() - begin).count());
   require_sound(hub_, Role::Fe, grant.id, done_);
   return from_message(done_);
+}
+
+void LcmFeLink::continue_from(std::int64_t last_seq) {
+  seq_ = last_seq;
+  if (mb_.mobility_id() >= 0) hub_.bus().publish(mb_.mobility(), mb_.mobility_id());
 }
 
 }  // namespace crosswalk::coupling

@@ -24,6 +24,9 @@ class LcmMbLink : public MbLink {
   /// Number of the mobility last received, to name it to fe; -1 before the first.
   int mobility_id() const { return mobility_.id; }
   const msg::mobility& mobility() const { return mobility_; }
+  /// Numbers to save and to continue from; the mobility is the one in use.
+  std::int64_t last_seq() const { return seq_; }
+  void continue_from(std::int64_t last_seq, int mobility_id, const Eigen::MatrixXd& mobility);
 
  private:
   Hub& hub_;
@@ -37,6 +40,9 @@ class LcmFeLink : public FeLink {
  public:
   LcmFeLink(Hub& hub, const LcmMbLink& mb);
   FeReply advance(const FeGrant& grant) override;
+  std::int64_t last_seq() const { return seq_; }
+  /// Tells fe_node the mobility anew, as it may have started afresh.
+  void continue_from(std::int64_t last_seq);
 
  private:
   Hub& hub_;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/checkpoint.h"
 #include "coupler/participant_link.h"
 
 namespace crosswalk::coupling {
@@ -49,6 +50,10 @@ struct WindowResult {
 
 /// Bodies at t = 0, no load, mobility to be measured.
 CouplingState start_state(const std::vector<InterfaceBody>& bodies);
+
+/// The state as bytes, for checkpoints.
+void put(ByteWriter& out, const CouplingState& state);
+CouplingState get_coupling_state(ByteReader& in);
 
 /// Advances both sides by one window of window_ns and updates the state.
 WindowResult advance_window(const SchemeSettings& settings, CouplingState& state,

@@ -15,7 +15,7 @@ class AckingRecorder : public NodeSession {
     bus.subscribe<msg::coupling_audit>(Role::Coupler, [this](const msg::coupling_audit& m) {
       ++audits;
       if (m.window > last_audit.window) last_audit = m;
-      if (m.window % 16 == 0) acknowledge(m.window);
+      acknowledge(last_audit.window);
     });
   }
   int audits = 0;
@@ -27,7 +27,11 @@ class AckingRecorder : public NodeSession {
     ack.window = window;
     bus_.publish(ack, 0);
   }
-  void on_manifest(const msg::run_manifest&) override { acknowledge(last_audit.window); }
+  void on_manifest(const msg::run_manifest& manifest) override {
+    // A resumed run: the log holds everything before the checkpoint.
+    last_audit.window = std::max(last_audit.window, manifest.first_window - 1);
+    acknowledge(last_audit.window);
+  }
   void on_tick(Bus::Clock::time_point) override {
     if (manifest()) acknowledge(last_audit.window);
   }

@@ -1,5 +1,8 @@
 // The lockstep between real processes over real UDP: lost, doubled, late messages, stopped and
 // killed nodes.
+#include <filesystem>
+#include <map>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +13,7 @@
 #include "acking_recorder.h"
 #include "common/participant.h"
 #include "coupler/coupler.h"
-#include "coupler/lcm_link.h"
+#include "coupler/coupler_part.h"
 #include "toy_nodes.h"
 
 namespace crosswalk::coupling {
@@ -79,14 +82,14 @@ class Lockstep : public testing::Test {
   pid_t start_mb() {
     return spawn([this] {
       toy::Mb mb = toy_mb();
-      MbSession session(*bus(Role::Mb), mb, kSolver, {});
+      MbSession session(*bus(Role::Mb), mb, kSolver, {}, checkpoints_);
       return static_cast<int>(session.run(never_));
     });
   }
   pid_t start_fe() {
     return spawn([this] {
       toy::Fe fe = toy_fe();
-      FeSession session(*bus(Role::Fe), fe, kSolver, {});
+      FeSession session(*bus(Role::Fe), fe, kSolver, {}, checkpoints_);
       return static_cast<int>(session.run(never_));
     });
   }
@@ -110,8 +113,13 @@ class Lockstep : public testing::Test {
   Outcome lead(std::int64_t duration_ns, Patience patience) {
     Outcome outcome;
     Bus& own = *bus(Role::Coupler);
-    Hub hub(own, {.scenario_name = "toy", .scenario_digest = 7, .version = "1"}, patience, never_,
-            [](EventLevel, const std::string&) {});
+    const std::int64_t first_window = latest_checkpoint(checkpoints_).value_or(0);
+    Hub hub(own,
+            {.scenario_name = "toy",
+             .scenario_digest = 7,
+             .version = "1",
+             .first_window = first_window},
+            patience, never_, [](EventLevel, const std::string&) {});
     std::int64_t window = 0;
     try {
       hub.claim();
@@ -130,12 +138,22 @@ class Lockstep : public testing::Test {
         }
       } watch(fe);
       Coupler coupler(settings_for(duration_ns), mb, &watch, &hub.records(),
-                      {.before_window = [&](std::int64_t n) {
-                        window = n;
-                        hub.set_window(n);
-                        hub.follow_recorder(n);
-                      }});
+                      {.before_window =
+                           [&](std::int64_t n) {
+                             window = n;
+                             hub.set_window(n);
+                             hub.follow_recorder(n);
+                           },
+                       .after_window =
+                           [&](std::int64_t next) {
+                             if (next % 50 != 0 || checkpoints_.empty()) return;
+                             hub.checkpoint(next);
+                             save_part(checkpoints_, next, coupler, mb, fe, hub);
+                           }});
       hub.start();
+      if (first_window > 0) {
+        load_part(read_part(checkpoints_, Role::Coupler, first_window), coupler, mb, fe, hub);
+      }
       outcome.windows = coupler.run(bodies);
       outcome.exit_code = hub.finish(outcome.windows - 1) ? 0 : 5;
       outcome.resends = hub.resends();
@@ -177,6 +195,7 @@ class Lockstep : public testing::Test {
   BusFaults faults_;
   std::atomic<bool> never_{false};
   std::vector<pid_t> children_;
+  std::filesystem::path checkpoints_;  ///< empty: none are written
   int result_ = -1;
 };
 
@@ -242,6 +261,34 @@ TEST_F(Lockstep, ANodeThatStaysSilentIsReportedAsSuch) {
   const Outcome out = outcome();
   EXPECT_EQ(out.exit_code, static_cast<int>(ExitCode::TimeOut));
   EXPECT_THAT(out.message, HasSubstr("fe_node has been silent"));
+}
+
+TEST_F(Lockstep, ResumesBitIdenticallyAfterTheDeathOfAnyProcess) {
+  constexpr std::int64_t kDuration = 60'000'000;
+  const std::uint64_t expected = undisturbed_hash(kDuration);
+  for (const Role victim : {Role::Coupler, Role::Mb, Role::Fe, Role::Recorder}) {
+    checkpoints_ =
+        std::filesystem::path(testing::TempDir()) / run_id_ / std::string(role_name(victim));
+    std::filesystem::remove_all(checkpoints_);
+    const std::map<Role, pid_t> pids = {{Role::Coupler, start_coupler(kDuration)},
+                                        {Role::Recorder, start_recorder()},
+                                        {Role::Fe, start_fe()},
+                                        {Role::Mb, start_mb()}};
+    while (!std::filesystem::exists(checkpoints_ / "latest.json")) std::this_thread::sleep_for(1ms);
+    std::this_thread::sleep_for(100ms);
+    kill(pids.at(victim), SIGKILL);
+    if (victim == Role::Coupler) {
+      for (const auto& [role, pid] : pids) kill(pid, SIGKILL);  // as the launcher would
+    }
+    for (const auto& [role, pid] : pids) waitpid(pid, nullptr, 0);
+    const std::optional<std::int64_t> window = latest_checkpoint(checkpoints_);
+    ASSERT_TRUE(window);
+    EXPECT_LT(*window, 3000) << "killed before the end";
+    const Outcome out = start_all_and_wait(kDuration);
+    EXPECT_EQ(out.exit_code, 0) << out.message;
+    EXPECT_EQ(out.windows, 3001);
+    EXPECT_EQ(out.fe_hash, expected) << role_name(victim);
+  }
 }
 
 }  // namespace

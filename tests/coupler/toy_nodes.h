@@ -7,8 +7,8 @@
 #pragma once
 
 #include <cmath>
-#include <cstring>
 
+#include "common/checkpoint.h"
 #include "common/exchange.h"
 #include "common/protocol.h"
 
@@ -22,10 +22,17 @@ inline std::vector<InterfaceBody> one_body() {
 }
 
 template <class T>
-std::vector<std::byte> bytes_of(const T& state) {
-  std::vector<std::byte> bytes(sizeof(T));
-  std::memcpy(bytes.data(), &state, sizeof(T));
-  return bytes;
+std::vector<std::byte> bytes_of(const T& state, double work) {
+  ByteWriter out;
+  out.put(state);
+  out.put(work);
+  return out.take();
+}
+template <class T>
+void from_bytes(const std::vector<std::byte>& bytes, T& state, double& work) {
+  ByteReader in(bytes);
+  state = in.get<T>();
+  work = in.get<double>();
 }
 
 struct MbBody {
@@ -79,10 +86,8 @@ class Mb : public MbParticipant {
   }
   std::string description() const override { return R"({"bodies":["block"]})"; }
   std::int64_t progress() const override { return steps_; }
-  std::vector<std::byte> save_state() const override { return bytes_of(now_); }
-  void load_state(const std::vector<std::byte>& bytes) override {
-    std::memcpy(&now_, bytes.data(), sizeof now_);
-  }
+  std::vector<std::byte> save_state() const override { return bytes_of(now_, work_); }
+  void load_state(const std::vector<std::byte>& bytes) override { from_bytes(bytes, now_, work_); }
   BodyMotion motion() const {
     return {{Quat::Identity(), {now_.x, 0, 0}}, {{now_.v, 0, 0}, Vec3::Zero()}};
   }
@@ -161,10 +166,8 @@ class Fe : public FeParticipant {
   }
   std::string description() const override { return "{}"; }
   std::int64_t progress() const override { return steps_; }
-  std::vector<std::byte> save_state() const override { return bytes_of(now_); }
-  void load_state(const std::vector<std::byte>& bytes) override {
-    std::memcpy(&now_, bytes.data(), sizeof now_);
-  }
+  std::vector<std::byte> save_state() const override { return bytes_of(now_, work_); }
+  void load_state(const std::vector<std::byte>& bytes) override { from_bytes(bytes, now_, work_); }
   const FePoint& now() const { return now_; }
 
   double gap_rate = 0;  ///< 1/s, of the gap correction

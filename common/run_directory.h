@@ -22,6 +22,7 @@ class RunDirectory {
   std::filesystem::path channels() const { return root_ / "channels.csv"; }
   std::filesystem::path summary() const { return root_ / "summary.json"; }
   std::filesystem::path summary_text() const { return root_ / "summary.txt"; }  ///< the table
+  std::filesystem::path report() const { return root_ / "report.html"; }
   std::filesystem::path model() const { return root_ / "model"; }               ///< generated decks
   std::filesystem::path fields() const { return root_ / "fields"; }             ///< VTU and PVD
   std::filesystem::path checkpoints() const { return root_ / "checkpoints"; }

@@ -22,7 +22,7 @@ constexpr std::array kHandovers = {
     Handover{"bench", "fe_node", "speed of the solver; `bench coupling`: of an empty window"},
     Handover{"subject", "mb_node", "show or fill in a subject's measures"},
     Handover{"study", "mb_node", "many multibody runs over a range of parameters"},
-    Handover{"view", "mb_node", "picture of the pedestrian and the car"},
+    Handover{"view", "recorder", "still pictures of the pedestrian and the car"},
     Handover{"rate", "recorder", "rate a run against test curves (CORA, ISO 18571)"},
     Handover{"injury", "recorder", "injury metrics of a run"},
     Handover{"analyze", "recorder", "channels and table of a log"},

@@ -47,11 +47,13 @@ std::optional<double> wrap_around(const fs::path& scenario, const RunRecord& rec
 }  // namespace
 
 Analysis analyze_log(const fs::path& log) {
-  const RunRecord record = read_run_record(log);
+  return analyze_record(read_run_record(log), log.parent_path() / "scenario.toml");
+}
+
+Analysis analyze_record(const RunRecord& record, const fs::path& scenario) {
   Analysis out;
   out.channels = extract(record);
   if (out.channels.head_contact) {
-    const fs::path scenario = log.parent_path() / "scenario.toml";
     out.channels.head_contact->wrap_around_distance = wrap_around(scenario, record, out.channels);
   }
   const std::string name = record.manifest ? record.manifest->scenario : "";

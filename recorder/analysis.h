@@ -16,6 +16,9 @@ struct Analysis {
 /// Everything from the log alone (and the scenario file beside it, for the car's profile).
 Analysis analyze_log(const std::filesystem::path& log);
 
+/// The same from messages that are already read; `scenario` may not exist.
+Analysis analyze_record(const RunRecord& record, const std::filesystem::path& scenario);
+
 /// Writes the three files.
 void write_results(const Analysis& analysis, const RunDirectory& directory);
 

@@ -6,18 +6,22 @@
 #include "common/version.h"
 #include "recorder/analysis.h"
 #include "recorder/recorder_session.h"
+#include "recorder/run_report.h"
 
 namespace crosswalk::recording {
 
 namespace {
 
-/// Channels, summary and table from what the log holds; a log too poor for them is said, not fatal.
+/// Channels, summary, table and report from what the log holds; a log too poor for them is said,
+/// not fatal.
 void conclude(const RunDirectory& directory, const Recorder& recorder) {
   log_info("{} messages, {:.1f} MB in {}", recorder.messages(),
            1e-6 * static_cast<double>(recorder.bytes()), directory.signals().string());
   try {
-    const Analysis analysis = analyze_log(directory.signals());
+    const RunRecord record = read_run_record(directory.signals());
+    const Analysis analysis = analyze_record(record, directory.scenario());
     write_results(analysis, directory);
+    write_report(directory.report(), report_input(analysis, record, directory));
     for (const std::string& warning : analysis.summary.warnings) log_warning("{}", warning);
   } catch (const UserError& error) {
     log_warning("no results: {}", error.what());

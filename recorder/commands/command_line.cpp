@@ -78,12 +78,44 @@ Action define_analyze(CLI::App& app) {
   };
 }
 
+Action define_report(CLI::App& app) {
+  auto request = std::make_shared<ReportRequest>();
+  app.add_option("run", request->run, "Run folder, or any log of lcm-logger")->required();
+  app.add_option("--with", request->with, "Further runs, laid over the charts");
+  app.add_option("--out", request->out, "File; report.html in the run folder by default");
+  return [request] { return reported(OutputForm::Text, [&request] { return report(*request); }); };
+}
+
+Action define_compare(CLI::App& app) {
+  auto request = std::make_shared<CompareRequest>();
+  app.add_option("runs", request->runs, "Two or more run folders")->required()->expected(2, 64);
+  app.add_option("--out", request->out, "File")->capture_default_str();
+  return [request] { return reported(OutputForm::Text, [&request] { return compare(*request); }); };
+}
+
+Action define_view(CLI::App& app) {
+  auto request = std::make_shared<ViewRequest>();
+  app.add_option("run", request->run, "Run folder, or any log of lcm-logger")->required();
+  app.add_flag("--frames", request->has_frames,
+               "Still pictures, posterior and superior (the only form there is)");
+  app.add_option("--at-ms", request->times_ms,
+                 "Times after first contact, ms; 0, 40 .. 200 by default");
+  app.add_option("--height", request->height, "Picture height, pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(60, 4000));
+  app.add_option("--out", request->out, "Folder; pictures/ in the run folder by default");
+  return [request] { return reported(OutputForm::Text, [&request] { return view(*request); }); };
+}
+
 }  // namespace
 
 std::vector<NodeCommand> commands() {
   return {{"rate", "Rate one signal against another.", define_rate},
           {"injury", "Injury metrics of head signals.", define_injury},
-          {"analyze", "Channels, summary and table from a log.", define_analyze}};
+          {"analyze", "Channels, summary and table from a log.", define_analyze},
+          {"report", "One HTML page about a run.", define_report},
+          {"compare", "Two or more runs side by side: table and HTML page.", define_compare},
+          {"view", "Still pictures of a run.", define_view}};
 }
 
 }  // namespace crosswalk::recording

@@ -35,9 +35,31 @@ struct AnalyzeRequest {
   std::filesystem::path out;     ///< empty: the run folder, or <log>.analysis beside the log
 };
 
+struct ReportRequest {
+  std::filesystem::path run;                ///< a run folder, or any LCM event log
+  std::vector<std::filesystem::path> with;  ///< further runs laid over the charts
+  std::filesystem::path out;                ///< empty: report.html in the run folder
+};
+
+struct CompareRequest {
+  std::vector<std::filesystem::path> runs;
+  std::filesystem::path out = "compare.html";
+};
+
+struct ViewRequest {
+  std::filesystem::path run;
+  bool has_frames = true;        ///< still pictures, the only form there is
+  std::vector<double> times_ms;  ///< after first contact; empty: every 40 ms to 200 ms
+  int height = 480;              ///< px
+  std::filesystem::path out;     ///< empty: pictures/ in the run folder
+};
+
 ExitCode rate(const RateRequest& request, OutputForm form);
 ExitCode injury(const InjuryRequest& request, OutputForm form);
 ExitCode analyze(const AnalyzeRequest& request, OutputForm form);
+ExitCode report(const ReportRequest& request);
+ExitCode compare(const CompareRequest& request);
+ExitCode view(const ViewRequest& request);
 
 /// Runs `command`; SignalError and UserError become the object or line above and exit code 2.
 ExitCode reported(OutputForm form, const std::function<ExitCode()>& command);

@@ -126,18 +126,6 @@ const std::vector<GroupSpec>& groups() {
          {{"contact_car_total_x", "x"},
           {"contact_car_total_y", "y"},
           {"contact_car_total_z", "z"}}}}},
-      {"Brain strain",
-       {{"brain_strain",
-         "Brain strain over time",
-         "first principal Green strain",
-         "Whole brain: the value that 95 % of the volume stays below, now and as the maximum until "
-         "now (MPS95).",
-         {{"brain_brain_mps_95", "now"}, {"brain_brain_mps_95_so_far", "maximum until now"}}},
-        {"brain_csdm",
-         "Share of the brain beyond a strain",
-         "volume share (CSDM)",
-         "",
-         {{"brain_brain_csdm_15", "beyond 0.15"}, {"brain_brain_csdm_25", "beyond 0.25"}}}}},
       {"Energy and coupling",
        {{"mb_energy",
          "Energy of the multibody pedestrian",
@@ -243,6 +231,46 @@ Chart trajectory(const std::vector<CurveSet>& sets) {
   return chart;
 }
 
+/// Strain of the brain's regions, whatever they are called: channels `brain_<region>_<quantity>`.
+Chart brain_chart(const std::vector<CurveSet>& sets, const std::vector<TimeMark>& marks,
+                  const std::string& quantity, const char* title, const char* axis,
+                  const char* caption, std::set<std::string>& drawn) {
+  std::vector<std::pair<std::string, std::string>> regions;  // channel, label
+  const std::string begin = "brain_";
+  const std::string end = "_" + quantity;
+  for (const CurveSet& set : sets) {
+    for (const Signal& signal : set.signals) {
+      const std::string& name = signal.name;
+      if (!name.starts_with(begin) || !name.ends_with(end)) continue;
+      if (!drawn.insert(name).second) continue;
+      std::string label = name.substr(begin.size(), name.size() - begin.size() - end.size());
+      std::replace(label.begin(), label.end(), '_', ' ');
+      regions.emplace_back(name, label);
+    }
+  }
+  const std::string id = "brain_" + quantity;
+  Spec spec{id.c_str(), title, axis, caption, {}};
+  for (const auto& [name, label] : regions) spec.lines.push_back({name.c_str(), label.c_str()});
+  return time_chart(spec, sets, marks);
+}
+
+ChartGroup brain_group(const std::vector<CurveSet>& sets, const std::vector<TimeMark>& marks,
+                       std::set<std::string>& drawn) {
+  ChartGroup group{"Brain strain", false, {}};
+  group.charts.push_back(
+      brain_chart(sets, marks, "mps_95", "Brain strain by region", "first principal Green strain",
+                  "The value that 95 % of the region's volume stays below.", drawn));
+  group.charts.push_back(
+      brain_chart(sets, marks, "mps_95_so_far", "Largest strain until now (MPS95)",
+                  "first principal Green strain",
+                  "95th percentile of every element's maximum until now.", drawn));
+  group.charts.push_back(brain_chart(sets, marks, "csdm_25", "Share of the volume beyond 0.25",
+                                     "volume share (CSDM)",
+                                     "Volume that has ever been strained beyond 0.25.", drawn));
+  std::erase_if(group.charts, [](const Chart& chart) { return chart.curves.empty(); });
+  return group;
+}
+
 /// Channels that no chart above shows, one chart each, folded.
 ChartGroup remaining(const std::vector<CurveSet>& sets, const std::set<std::string>& drawn,
                      const std::vector<TimeMark>& marks) {
@@ -283,6 +311,8 @@ std::vector<ChartGroup> channel_charts(const std::vector<CurveSet>& sets,
     }
     if (!group.charts.empty()) out.push_back(std::move(group));
   }
+  ChartGroup brain = brain_group(sets, marks, drawn);
+  if (!brain.charts.empty()) out.push_back(std::move(brain));
   ChartGroup rest = remaining(sets, drawn, marks);
   if (!rest.charts.empty()) out.push_back(std::move(rest));
   return out;

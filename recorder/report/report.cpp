@@ -251,6 +251,7 @@ void set_verdict(data& page, const ReportInput& input) {
                                 ? "1 warning"
                                 : fmt::format("{} warnings", input.warnings.size()));
   page.set("warnings", texts(input.warnings));
+  page.set("has_verdict", data(!input.verdict.empty()));
   page.set("verdict_groups", verdict_groups(input.verdict));
   if (!input.scene.empty()) page.set("cover", cover(input));
 }

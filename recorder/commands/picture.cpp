@@ -1,0 +1,86 @@
+// What is made to be looked at: report, comparison, still pictures.
+#include <fmt/format.h>
+
+#include "recorder/commands/commands.h"
+#include "recorder/report/frames.h"
+#include "recorder/run_compare.h"
+#include "recorder/run_report.h"
+#include "recorder/run_scene.h"
+
+namespace crosswalk::recording {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Where a run's log is and where its files go: a run folder, or the folder of a bare log.
+struct Source {
+  explicit Source(const fs::path& given)
+      : is_folder(fs::is_directory(given)),
+        directory(is_folder ? given : given.parent_path()),
+        log(is_folder ? directory.signals() : given) {}
+  bool is_folder;
+  RunDirectory directory;
+  fs::path log;
+};
+
+std::string label_of(const Analysis& analysis, const fs::path& given) {
+  return fmt::format("{} ({})", mode_of(analysis.summary),
+                     fs::absolute(given).lexically_normal().filename().string());
+}
+
+}  // namespace
+
+ExitCode report(const ReportRequest& request) {
+  const Source source(request.run);
+  const RunRecord record = read_run_record(source.log);
+  const Analysis analysis = analyze_record(record, source.directory.scenario());
+  ReportInput input = report_input(analysis, record, source.directory);
+  for (const fs::path& other : request.with) {
+    const Analysis second = analyze_log(Source(other).log);
+    overlay(input, second, label_of(second, other));
+  }
+  const fs::path out = !request.out.empty() ? request.out
+                       : source.is_folder   ? source.directory.report()
+                                            : fs::path(source.log).replace_extension("report.html");
+  write_report(out, input);
+  fmt::print("written: {}\n", out.string());
+  return ExitCode::Done;
+}
+
+ExitCode compare(const CompareRequest& request) {
+  std::vector<ComparedRun> runs;
+  for (const fs::path& run : request.runs) {
+    const Source source(run);
+    RunRecord record = read_run_record(source.log);
+    Analysis analysis = analyze_record(record, source.directory.scenario());
+    runs.push_back({run.lexically_normal().filename().string(), std::move(analysis), {}});
+    runs.back().scene = scene_of(record, runs.back().analysis.summary.t0);
+  }
+  write_report(request.out, comparison_input(runs));
+  fmt::print("{}\nwritten: {}\n", comparison_text(runs), request.out.string());
+  return ExitCode::Done;
+}
+
+ExitCode view(const ViewRequest& request) {
+  const Source source(request.run);
+  const RunRecord record = read_run_record(source.log);
+  const Scene scene = scene_of(record, extract(record).t0);
+  if (scene.empty()) {
+    throw UserError(Problem{{source.log.string()},
+                            "pictures",
+                            "body poses and ellipsoids of mb_node",
+                            "none in this log",
+                            {}});
+  }
+  std::vector<double> times;
+  for (const double t_ms : request.times_ms) times.push_back(1e-3 * t_ms);
+  if (times.empty()) times = default_still_times(scene);
+  const fs::path folder = request.out.empty() ? source.directory.root() / "pictures" : request.out;
+  for (const fs::path& file : write_stills(folder, scene, times, request.height)) {
+    fmt::print("{}\n", file.string());
+  }
+  return ExitCode::Done;
+}
+
+}  // namespace crosswalk::recording

@@ -1,0 +1,272 @@
+#include "recorder/run_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "recorder/run_scene.h"
+#include "recorder/run_verdict.h"
+
+namespace crosswalk::recording {
+
+namespace {
+
+using nlohmann::json;
+
+json mb_description(const RunRecord& record) {
+  const auto found = record.description.find(Role::Mb);
+  if (found == record.description.end()) return json::object();
+  json parsed = json::parse(found->second, nullptr, false);
+  return parsed.is_object() ? parsed : json::object();
+}
+
+std::string text_member(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+json object_member(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_object() ? *found : json::object();
+}
+
+std::string subtitle_of(const Summary& s, const json& mb) {
+  const json subject = object_member(mb, "subject");
+  std::string out = mode_of(s) == "coupled"
+                        ? "Multibody pedestrian with finite-element head, neck and windshield"
+                        : "Multibody pedestrian";
+  if (subject.contains("standing_height_m") && subject["standing_height_m"].is_number()) {
+    out += fmt::format(" · {:.0f} mm, {:.1f} kg", 1e3 * subject["standing_height_m"].get<double>(),
+                       subject.value("mass_kg", 0.0));
+  }
+  const std::string car = text_member(object_member(mb, "vehicle"), "name");
+  if (!car.empty()) out += " · car front: " + car;
+  return out;
+}
+
+std::string story_of(const Summary& s) {
+  const std::string speed =
+      s.initial_buck_speed ? fmt::format(" at {:.0f} km/h", 3.6 * *s.initial_buck_speed) : "";
+  std::string story =
+      fmt::format("A car front{} strikes a standing pedestrian from the side. ", speed);
+  if (s.head_contact) {
+    story += fmt::format("After {:.0f} ms the head hits the car ({}) at {:.1f} m/s",
+                         1e3 * s.head_contact->time, s.head_contact->partner,
+                         s.head_contact->relative_speed);
+    if (s.card.linear) {
+      story += fmt::format("; the resulting HIC15 is {:.0f}", s.card.linear->HIC15.value);
+      if (const auto risk = risk_of(s, "hic_lognormal", "AIS3+")) {
+        story += fmt::format(", which means a {:.0f} % risk of serious head injury", 100 * *risk);
+      }
+    }
+    story += ".";
+  } else {
+    story += fmt::format("Within the {:.0f} ms computed the head does not touch the car.",
+                         1e3 * s.simulated);
+  }
+  return story;
+}
+
+std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+
+ReportTable rating_table(const Summary& s) {
+  ReportTable table{
+      "Ratings against the measured curves",
+      "CORA with its default parameters over the whole common interval; ISO/TS 18571.",
+      {"signal", "CORA C", "corridor C1", "shape V", "size G", "phase P", "ISO R", "ISO grade",
+       "reference"},
+      {}};
+  for (const SignalRating& r : s.ratings) {
+    if (!r.cora) {
+      table.rows.push_back({r.signal.label, "–", "", "", "", "", "", r.fault, r.reference});
+      continue;
+    }
+    const auto three = [](double v) { return fmt::format("{:.3f}", v); };
+    table.rows.push_back({r.signal.label, three(r.cora->C), three(r.cora->C1), three(r.cora->V),
+                          three(r.cora->G), three(r.cora->P), r.iso ? three(r.iso->R) : "–",
+                          r.iso ? r.iso->grade : "–", r.reference});
+  }
+  return table;
+}
+
+ReportTable risk_table(const Summary& s) {
+  ReportTable table{"Injury risk",
+                    "Families of curves disagree; each is printed with its author.",
+                    {"curve"},
+                    {}};
+  std::vector<std::string> levels;
+  for (const RiskFamily& family : s.card.risks) {
+    for (const Risk& risk : family.risks) {
+      if (std::find(levels.begin(), levels.end(), risk.level) == levels.end())
+        levels.push_back(risk.level);
+    }
+  }
+  std::sort(levels.begin(), levels.end());
+  table.columns.insert(table.columns.end(), levels.begin(), levels.end());
+  for (const RiskFamily& family : s.card.risks) {
+    std::vector<std::string> row{family.author};
+    for (const std::string& level : levels) {
+      const auto risk = risk_of(s, family.key, level);
+      row.push_back(risk ? percent(*risk) : "");
+    }
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+ReportTable published_table(const Summary& s) {
+  ReportTable table{"Published scores of other models in this test",
+                    s.published_source,
+                    {"signal", "model", "CORA"},
+                    {}};
+  for (const PublishedScore& p : s.published) {
+    table.rows.push_back({p.signal, p.model, fmt::format("{:.3f}", p.score)});
+  }
+  return table;
+}
+
+std::optional<TissuePeak> tissue_of(const RunRecord& record, double t0) {
+  const std::vector<std::string> names = run_names(record).regions;
+  const TissueSample* peak = nullptr;
+  for (const auto& [t_ns, sample] : record.tissue) {
+    if (sample.regions.empty()) continue;
+    if (peak == nullptr || sample.regions[0].mps_95 > peak->regions[0].mps_95) peak = &sample;
+  }
+  if (peak == nullptr) return std::nullopt;
+  TissuePeak out;
+  out.t = 1e-9 * static_cast<double>(peak->t_ns) - t0;
+  for (std::size_t i = 0; i < peak->regions.size(); ++i) {
+    const TissueSample::Region& r = peak->regions[i];
+    out.regions.push_back({i < names.size() ? names[i] : fmt::format("region {}", i), r.mps_max,
+                           r.mps_95, r.csdm_15, r.csdm_25, r.pressure_min, r.pressure_max,
+                           r.von_mises_95});
+  }
+  return out;
+}
+
+void add_flat(std::vector<std::pair<std::string, std::string>>& out, const std::string& key,
+              const json& value) {
+  if (value.is_object()) {
+    for (const auto& [inner, v] : value.items()) add_flat(out, key + " " + inner, v);
+  } else if (value.is_array()) {
+    std::string joined;
+    for (const json& v : value)
+      joined += (joined.empty() ? "" : " ") + (v.is_string() ? v.get<std::string>() : v.dump());
+    out.emplace_back(key, joined);
+  } else {
+    out.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> provenance_of(const Summary& s,
+                                                               const RunDirectory& directory) {
+  std::vector<std::pair<std::string, std::string>> out;
+  out.emplace_back("scenario", s.manifest.scenario);
+  out.emplace_back("mode", mode_of(s));
+  out.emplace_back("windows", fmt::format("{} of {:g} µs", s.windows,
+                                          1e-3 * static_cast<double>(s.manifest.window_ns)));
+  out.emplace_back("outcome", s.outcome);
+  out.emplace_back("messages",
+                   fmt::format("{} ({} doubled, {} lost)", s.messages, s.doubled, s.lost));
+  std::ifstream file(directory.provenance());
+  const json provenance = json::parse(file, nullptr, false);
+  if (!provenance.is_object()) return out;
+  for (const auto& [key, value] : provenance.items()) {
+    std::string shown = key;
+    std::replace(shown.begin(), shown.end(), '_', ' ');
+    add_flat(out, shown, value);
+  }
+  return out;
+}
+
+/// Car components whose curves are not published, and bands that are estimates.
+std::vector<Estimate> estimates_of(const Summary& s, const json& mb) {
+  std::vector<Estimate> out;
+  std::string components;
+  const json vehicle = object_member(mb, "vehicle");
+  for (const json& c : vehicle.value("components", json::array())) {
+    if (!c.is_object() || text_member(c, "provenance") == "published") continue;
+    components += (components.empty() ? "" : ", ") + text_member(c, "name");
+    if (text_member(c, "provenance") == "measured") components += " (measured)";
+  }
+  if (!components.empty()) {
+    out.push_back({"Car front: force against penetration", components,
+                   "engineering estimate; see the vehicle's file in the scenarios folder"});
+  }
+  for (const BandVerdict& v : s.bands) {
+    if (v.band.status == "published") continue;
+    out.push_back({"Band of " + v.band.quantity,
+                   fmt::format("{:g} – {:g}", v.band.low, v.band.high),
+                   v.band.source.empty() ? v.band.status : v.band.status + "; " + v.band.source});
+  }
+  for (const std::string& statement : s.statements) out.push_back({"General", "", statement});
+  return out;
+}
+
+Signal signal_of(const Channel& channel) {
+  Signal signal{channel.name, channel.unit, channel.description, {}, channel.samples};
+  signal.t.reserve(channel.samples.size());
+  for (std::size_t i = 0; i < channel.samples.size(); ++i) signal.t.push_back(channel.time(i));
+  return signal;
+}
+
+/// Measured curves of the test, when somebody has put them there.
+void add_reference_curves(ReportInput& input, const std::string& scenario) {
+  const auto reference = reference_data(scenario);
+  if (!reference || reference->curves.empty()) return;
+  CurveSet set{"test " + reference->test, CurveOrigin::Reference, {}};
+  for (const ReferenceCurve& curve : reference->curves) {
+    set.signals.push_back(
+        {curve.channel, curve.unit, curve.source, curve.series.t, curve.series.y});
+  }
+  input.curves.push_back(std::move(set));
+}
+
+}  // namespace
+
+std::string mode_of(const Summary& summary) {
+  return summary.manifest.has_fe ? "coupled" : "multibody";
+}
+
+CurveSet curve_set(const RunChannels& channels, const std::string& label, CurveOrigin origin) {
+  CurveSet set{label, origin, {}};
+  for (const Channel& channel : channels.channels) set.signals.push_back(signal_of(channel));
+  return set;
+}
+
+ReportInput report_input(const Analysis& analysis, const RunRecord& record,
+                         const RunDirectory& directory) {
+  const Summary& s = analysis.summary;
+  const json mb = mb_description(record);
+  ReportInput input;
+  input.title =
+      fmt::format("{}, {}", s.manifest.scenario.empty() ? "Run" : s.manifest.scenario, mode_of(s));
+  input.subtitle = subtitle_of(s, mb);
+  input.story = story_of(s);
+  input.verdict = verdict_of(s);
+  input.warnings = s.warnings;
+  input.curves = {curve_set(analysis.channels, mode_of(s), CurveOrigin::ThisRun)};
+  if (s.head_contact) input.marks.push_back({s.head_contact->time, "head contact"});
+  if (!s.ratings.empty()) input.tables.push_back(rating_table(s));
+  if (!s.card.risks.empty()) input.tables.push_back(risk_table(s));
+  if (!s.published.empty()) input.tables.push_back(published_table(s));
+  input.tissue = tissue_of(record, s.t0);
+  input.scene = scene_of(record, s.t0);
+  input.provenance = provenance_of(s, directory);
+  input.estimates = estimates_of(s, mb);
+  add_reference_curves(input, s.manifest.scenario);
+  return input;
+}
+
+void overlay(ReportInput& input, const Analysis& other, const std::string& label) {
+  const auto reference =
+      std::find_if(input.curves.begin(), input.curves.end(),
+                   [](const CurveSet& set) { return set.origin == CurveOrigin::Reference; });
+  input.curves.insert(reference, curve_set(other.channels, label, CurveOrigin::OtherRun));
+}
+
+}  // namespace crosswalk::recording

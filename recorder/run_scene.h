@@ -1,0 +1,13 @@
+// From the messages of a run to what is seen of it: shapes from the nodes' descriptions
+// (docs/messages.md), poses from the records, times relative to first contact.
+#pragma once
+
+#include "recorder/report/scene.h"
+#include "recorder/run_record.h"
+
+namespace crosswalk::recording {
+
+/// `t0` (s): simulated time of first contact. An empty scene when the log holds no body poses.
+Scene scene_of(const RunRecord& record, double t0);
+
+}  // namespace crosswalk::recording

@@ -1,0 +1,118 @@
+// From a record to what the report shows: scene, verdict, comparison.
+#include "recorder/run_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "recorder/run_compare.h"
+#include "recorder/run_scene.h"
+#include "tests/recorder/synthetic_run.h"
+
+namespace crosswalk::recording {
+namespace {
+
+using testing::Contains;
+using testing::Field;
+using testing::HasSubstr;
+
+RunRecord record_of(bool has_fe) {
+  SyntheticRun run;
+  run.has_fe = has_fe;
+  RecordBuilder builder;
+  for (const RawMessage& m : run.messages()) builder.add(m.data, 1);
+  return builder.record();
+}
+
+Analysis analysis_of(bool has_fe) { return analyze_record(record_of(has_fe), {}); }
+
+RunRecord drawn_record() {
+  RunRecord record;
+  record.description[Role::Mb] = R"({
+    "bodies": ["pelvis", "buck"], "head_body": -1,
+    "ellipsoids": [
+      {"name": "pelvis", "body": 0, "centre_m": [0, 0, 0.1], "semi_axes_m": [0.1, 0.2, 0.1]},
+      {"name": "flat", "body": 0, "centre_m": [0, 0, 0], "semi_axes_m": [0.1, 0, 0.1]},
+      {"name": "lost", "body": 7, "centre_m": [0, 0, 0], "semi_axes_m": [0.1, 0.1, 0.1]}],
+    "vehicle": {"facets": [{"component": "hood", "begin_yz_m": [0, 0.7], "end_yz_m": [-1, 0.9],
+                            "half_width_m": 0.8}]}})";
+  record.description[Role::Fe] = R"({"head_surface": {
+    "vertices_m": [[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]], "triangles": [[0, 1, 2], [0, 1, 9]]}})";
+  Pose pelvis;
+  pelvis.p = Vec3(0, 0, 0.95);
+  Pose buck;
+  buck.p = Vec3(0, -0.2, 0);
+  record.bodies[2'000'000] = {pelvis, buck};
+  record.bodies[3'000'000] = {pelvis, buck};
+  record.bodies[4'000'000] = {pelvis};  // another number of bodies: left out
+  HeadSample head;
+  head.t_ns = 2'500'000;
+  head.X_WH.p = Vec3(0, 0, 1.7);
+  record.head[head.t_ns] = head;
+  return record;
+}
+
+TEST(RunScene, TakesShapesAndPosesAndLeavesOutWhatIsUnsound) {
+  const Scene scene = scene_of(drawn_record(), 0.002);
+  ASSERT_EQ(scene.ellipsoids.size(), 1U);
+  EXPECT_EQ(scene.ellipsoids[0].X_BE.p, Vec3(0, 0, 0.1));
+  ASSERT_EQ(scene.facets.size(), 1U);
+  EXPECT_EQ(scene.facets[0].end, Eigen::Vector2d(-1, 0.9));
+  ASSERT_TRUE(scene.head);
+  EXPECT_EQ(scene.head->triangles.size(), 1U);
+  ASSERT_EQ(scene.frames.size(), 2U);
+  EXPECT_NEAR(scene.frames[0].t, 0.0, 1e-12);
+  EXPECT_NEAR(scene.frames[1].t, 0.001, 1e-12);
+  EXPECT_EQ(scene.frames[0].X_WV.p, Vec3(0, -0.2, 0));
+  EXPECT_EQ(scene.frames[0].X_WH->p, Vec3(0, 0, 1.7));
+}
+
+TEST(RunScene, DamagedDescriptionsGiveAnEmptyScene) {
+  RunRecord record = drawn_record();
+  record.description[Role::Mb] = "{\"bodies\": [";
+  EXPECT_TRUE(scene_of(record, 0).ellipsoids.empty());
+  EXPECT_TRUE(scene_of(RunRecord{}, 0).empty());
+}
+
+const VerdictRow& row_of(const ReportInput& input, const std::string& label) {
+  for (const VerdictRow& row : input.verdict) {
+    if (row.label == label) return row;
+  }
+  throw std::out_of_range(label);
+}
+
+TEST(RunReport, VerdictTellsContactAndQuality) {
+  const RunRecord record = record_of(true);
+  const ReportInput input =
+      report_input(analyze_record(record, {}), record, RunDirectory("nowhere"));
+  EXPECT_EQ(row_of(input, "Head contact time").value, "10.0");
+  EXPECT_EQ(row_of(input, "Interface energy drift").status, Verdict::Good);
+  EXPECT_EQ(row_of(input, "Record").status, Verdict::Good);
+  EXPECT_THAT(input.story, HasSubstr("40 km/h"));
+  EXPECT_THAT(input.marks, Contains(Field(&TimeMark::label, "head contact")));
+  ASSERT_TRUE(input.tissue);
+  EXPECT_EQ(input.tissue->regions.size(), 2U);
+}
+
+TEST(RunReport, WithoutMeasuredCurvesNothingIsRated) {
+  const RunRecord record = record_of(false);
+  const ReportInput input =
+      report_input(analyze_record(record, {}), record, RunDirectory("nowhere"));
+  EXPECT_EQ(row_of(input, "CORA and ISO/TS 18571").value, "not rated");
+  EXPECT_FALSE(input.tissue);
+}
+
+TEST(RunCompare, EqualRunsScoreOneAndShareTheirBars) {
+  const std::vector<ComparedRun> runs{{"a", analysis_of(false), {}}, {"b", analysis_of(true), {}}};
+  const ReportInput input = comparison_input(runs);
+  ASSERT_EQ(input.bars.size(), 2U);
+  EXPECT_EQ(input.bars[0].groups.size(), 1U);
+  EXPECT_EQ(input.bars[0].labels, (std::vector<std::string>{"multibody", "coupled"}));
+  EXPECT_THAT(comparison_text(runs), HasSubstr("HIC15"));
+  const ReportTable& mutual = input.tables.back();
+  ASSERT_EQ(mutual.rows.size(), 5U);
+  for (const auto& row : mutual.rows) EXPECT_EQ(row[1], "1.000") << row[0];
+  EXPECT_EQ(input.curves.size(), 2U);
+}
+
+}  // namespace
+}  // namespace crosswalk::recording

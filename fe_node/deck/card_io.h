@@ -39,6 +39,8 @@ class CardIo {
   virtual void text(const char* name, std::string& value, int width = kWidth) = 0;
   /// A whole line as it stands, trimmed: titles. Includes card().
   virtual void line(const char* name, std::string& value) = 0;
+  /// A whole line exactly as it stands: cards that are not interpreted. Includes card().
+  virtual void raw_line(std::string& value) = 0;
   /// A line with a number in 10 columns and a title, which may hold commas. Includes card().
   virtual void id_and_title(DeckId& id, std::string& title) = 0;
   /// Says that the deck is wrong at the present card (reading only).

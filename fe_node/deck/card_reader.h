@@ -36,12 +36,11 @@ class CardReader final : public CardIo {
   void integer(const char* name, std::int32_t& value, int width) override;
   void text(const char* name, std::string& value, int width) override;
   void line(const char* name, std::string& value) override;
+  void raw_line(std::string& value) override;
   void id_and_title(DeckId& id, std::string& title) override;
   void problem(const char* name, const std::string& expected, const std::string& found) override;
   Source source() const override { return source_; }
 
-  /// The next line untrimmed, without substitution.
-  void raw_line(std::string& value);
   const std::string& keyword() const { return keyword_; }
   Source keyword_source() const { return keyword_source_; }
   int card_number() const { return card_number_; }

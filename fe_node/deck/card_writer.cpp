@@ -102,6 +102,12 @@ void CardWriter::id_and_title(DeckId& number, std::string& title) {
 
 void CardWriter::line(const char*, std::string& value) {
   card();
+  const bool looks_like_more = value.starts_with('*') || value.starts_with('$');
+  standard_.card = long_.card = (looks_like_more ? " " : "") + value;
+}
+
+void CardWriter::raw_line(std::string& value) {
+  card();
   standard_.card = long_.card = value;
 }
 

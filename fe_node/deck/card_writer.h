@@ -38,6 +38,7 @@ class CardWriter final : public CardIo {
   void integer(const char* name, std::int32_t& value, int width) override;
   void text(const char* name, std::string& value, int width) override;
   void line(const char* name, std::string& value) override;
+  void raw_line(std::string& value) override;
   void id_and_title(DeckId& id, std::string& title) override;
   void problem(const char*, const std::string&, const std::string&) override {}
   Source source() const override { return {}; }

@@ -105,10 +105,10 @@ void cards(CardIo& io, Contact& contact) {
   if (!io.has_optional(needs_c)) return;
   card_c(io, contact.card_c ? *contact.card_c : contact.card_c.emplace());
   if (io.is_reading()) {
-    while (io.has_content()) io.line("optional", contact.extra_cards.emplace_back());
+    while (io.has_content()) io.raw_line(contact.extra_cards.emplace_back());
     return;
   }
-  for (std::string& line : contact.extra_cards) io.line("optional", line);
+  for (std::string& line : contact.extra_cards) io.raw_line(line);
 }
 
 struct NamedKind {
@@ -153,11 +153,11 @@ void classify(Contact& contact) {
 /// One or two cards of option MPP; the second starts with &.
 void mpp_cards(CardIo& io, std::vector<std::string>& lines) {
   if (!io.is_reading()) {
-    for (std::string& line : lines) io.line("MPP", line);
+    for (std::string& line : lines) io.raw_line(line);
     return;
   }
-  io.line("MPP", lines.emplace_back());
-  if (io.next_line().starts_with('&')) io.line("MPP", lines.emplace_back());
+  io.raw_line(lines.emplace_back());
+  if (io.next_line().starts_with('&')) io.raw_line(lines.emplace_back());
 }
 
 /// Takes `suffix` off the end of `name`.

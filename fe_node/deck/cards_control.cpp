@@ -10,10 +10,10 @@ namespace {
 /// Cards after the interpreted ones, as text.
 void more_cards(CardIo& io, std::vector<std::string>& lines) {
   if (io.is_reading()) {
-    while (io.has_content()) io.line("more", lines.emplace_back());
+    while (io.has_content()) io.raw_line(lines.emplace_back());
     return;
   }
-  for (std::string& line : lines) io.line("more", line);
+  for (std::string& line : lines) io.raw_line(line);
 }
 
 void termination_cards(CardIo& io, Control& control) {
@@ -27,7 +27,7 @@ void termination_cards(CardIo& io, Control& control) {
   control.end_time = end_time;
 }
 
-void cards(CardIo& io, Control::TimeStep& step) {
+void cards(CardIo& io, TimeStepControl& step) {
   io.card();
   io.real("DTINIT", step.initial);
   io.real_or("TSSFAC", step.scale, 0.9);
@@ -39,7 +39,7 @@ void cards(CardIo& io, Control::TimeStep& step) {
   io.integer("MS1ST", step.mass_scaled_option);
 }
 
-void cards(CardIo& io, Control::Energy& energy) {
+void cards(CardIo& io, EnergyControl& energy) {
   io.card();
   io.integer("HGEN", energy.hourglass);
   io.integer("RWEN", energy.rigid_wall);
@@ -48,13 +48,13 @@ void cards(CardIo& io, Control::Energy& energy) {
   io.integer("IRGEN", energy.initial_reference);
 }
 
-void cards(CardIo& io, Control::HourglassDefault& hourglass) {
+void cards(CardIo& io, HourglassControl& hourglass) {
   io.card();
   io.integer_or("IHQ", hourglass.type, 1);
   io.real_or("QH", hourglass.coefficient, 0.1);
 }
 
-void cards(CardIo& io, Control::BulkViscosity& viscosity) {
+void cards(CardIo& io, BulkViscosityControl& viscosity) {
   io.card();
   io.real_or("Q1", viscosity.quadratic, 1.5);
   io.real_or("Q2", viscosity.linear, 0.06);
@@ -62,7 +62,7 @@ void cards(CardIo& io, Control::BulkViscosity& viscosity) {
   io.integer("BTYPE", viscosity.beam_type);
 }
 
-void first_contact_cards(CardIo& io, Control::ContactDefault& contact) {
+void first_contact_cards(CardIo& io, ContactControl& contact) {
   io.card();
   io.real_or("SLSFAC", contact.stiffness_scale, 0.1);
   io.real("RWPNAL", contact.wall_penalty);
@@ -83,7 +83,7 @@ void first_contact_cards(CardIo& io, Control::ContactDefault& contact) {
   io.integer("TIEDPRJ", contact.tied_projection);
 }
 
-void cards(CardIo& io, Control::ContactDefault& contact) {
+void cards(CardIo& io, ContactControl& contact) {
   first_contact_cards(io, contact);
   if (!io.has_optional(true)) return;
   io.card();
@@ -100,7 +100,7 @@ void cards(CardIo& io, Control::ContactDefault& contact) {
   more_cards(io, contact.more_cards);
 }
 
-void cards(CardIo& io, Control::Shell& shell) {
+void cards(CardIo& io, ShellControl& shell) {
   io.card();
   io.real_or("WRPANG", shell.warp_angle_deg, 20);
   io.integer("ESORT", shell.sort_triangles);
@@ -113,7 +113,7 @@ void cards(CardIo& io, Control::Shell& shell) {
   more_cards(io, shell.more_cards);
 }
 
-void cards(CardIo& io, Control::Solid& solid) {
+void cards(CardIo& io, SolidControl& solid) {
   io.card();
   io.integer("ESORT", solid.sort_degenerate);
   io.integer("FMATRIX", solid.matrix_form);
@@ -124,7 +124,7 @@ void cards(CardIo& io, Control::Solid& solid) {
   more_cards(io, solid.more_cards);
 }
 
-void cards(CardIo& io, Control::Accuracy& accuracy) {
+void cards(CardIo& io, AccuracyControl& accuracy) {
   io.card();
   io.integer("OSU", accuracy.objective_update);
   io.integer_or("INN", accuracy.invariant_numbering, 1);

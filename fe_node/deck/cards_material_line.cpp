@@ -190,11 +190,11 @@ void cards(CardIo& io, Material& material, SpringMuscle& law) {
 
 void cards(CardIo& io, Material& material, Unsupported& law) {
   if (io.is_reading()) {
-    while (io.has_card()) io.line("card", law.cards.emplace_back());
+    while (io.has_card()) io.raw_line(law.cards.emplace_back());
     return;
   }
   (void)material;
-  for (std::string& card : law.cards) io.line("card", card);
+  for (std::string& card : law.cards) io.raw_line(card);
 }
 
 }  // namespace crosswalk::fe::mat

@@ -49,10 +49,10 @@ void cards(CardIo& io, CurveFunction& function) {
   io.id("LCID", function.id);
   io.integer("SIDR", function.stress_initialisation);
   if (io.is_reading()) {
-    while (io.has_content()) io.line("FUNCTION", function.expression.emplace_back());
+    while (io.has_content()) io.raw_line(function.expression.emplace_back());
     return;
   }
-  for (std::string& line : function.expression) io.line("FUNCTION", line);
+  for (std::string& line : function.expression) io.raw_line(line);
 }
 
 void read_curve_function(KeywordBlock& block) {

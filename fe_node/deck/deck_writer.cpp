@@ -13,7 +13,7 @@ void write_unread(CardWriter& out, const UnreadKeyword& unread) {
   // Materials are written with the other materials.
   if (unread.keyword.starts_with("MAT_")) return;
   out.keyword(unread.keyword);
-  for (std::string card : unread.cards) out.line("card", card);
+  for (std::string card : unread.cards) out.raw_line(card);
 }
 
 void write_includes(CardWriter& out, const Deck& deck) {

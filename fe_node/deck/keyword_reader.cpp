@@ -158,7 +158,7 @@ class DeckReader {
     if (tail == "-") format = CardFormat::Standard;
     if (tail == "%") format = CardFormat::I10;
     io_.begin(keyword, source, format);
-    dispatch(keyword);
+    dispatch(keyword, tail);
     warn_of_rest(keyword);
   }
 
@@ -170,7 +170,7 @@ class DeckReader {
     io_.skip_rest();
   }
 
-  void dispatch(const std::string& keyword) {
+  void dispatch(const std::string& keyword, const std::string& tail) {
     if (keyword == "END") {
       lines_.end_file();
       return;
@@ -189,12 +189,12 @@ class DeckReader {
     }
     if (keyword.starts_with("CONTACT_") && read_contact(block, keyword.substr(8))) return;
     if (keyword.starts_with("DATABASE_") && read_database(block, keyword.substr(9))) return;
-    keep_unread(keyword);
+    keep_unread(keyword, tail);
   }
 
-  void keep_unread(const std::string& keyword) {
+  void keep_unread(const std::string& keyword, const std::string& tail) {
     const KeywordEffect effect = effect_of(keyword);
-    UnreadKeyword unread{.keyword = keyword,
+    UnreadKeyword unread{.keyword = tail.empty() ? keyword : keyword + ' ' + tail,
                          .effect = effect.effect,
                          .reason = std::string(effect.reason),
                          .cards = {},
@@ -214,7 +214,7 @@ class DeckReader {
       note_missing(std::string(trimmed(io_.next_line())));
     while (io_.has_card()) {
       std::string card;
-      io_.line("card", card);
+      io_.raw_line(card);
       ++unread.card_count;
       if (unread.cards.size() < kKeptCards) unread.cards.push_back(std::move(card));
     }

@@ -1,10 +1,10 @@
 #include "coupler/hub.h"
 
 #include <algorithm>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include "common/log.h"
@@ -25,11 +25,17 @@ double since(Bus::Clock::time_point t) {
   return std::chrono::duration<double>(Bus::Clock::now() - t).count();
 }
 
-// A process of this host that has gone; on other hosts only silence tells.
+// A process of this host that has gone, or is dead and not yet waited for; on other hosts only silence
+// tells.
 bool has_vanished(const msg::node_hello& hello) {
   char host[64] = {};
   gethostname(host, sizeof host - 1);
-  return hello.host == host && kill(hello.pid, 0) != 0 && errno == ESRCH;
+  if (hello.host != host) return false;
+  std::ifstream stat(fmt::format("/proc/{}/stat", hello.pid));
+  std::string text;
+  if (!std::getline(stat, text)) return true;
+  const std::size_t state = text.rfind(')') + 2;  // after "pid (name) "
+  return state < text.size() && text[state] == 'Z';
 }
 
 }  // namespace

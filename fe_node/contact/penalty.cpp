@@ -178,7 +178,6 @@ Touch PenaltyContact::nearest(const ContactPass& pass, const NearNode& near,
     t.projection = closest_point(x, t.corners, facet.is_triangle());
     const double reach = settings_.thickness_scale * (node.half_thickness + facet.half_thickness);
     const double d = t.projection.distance;
-    if (d > std::max(reach, facet.depth_limit)) continue;
     const Vec3 away = x - t.projection.point;
     const double side = away.dot(t.projection.normal);
     t.steepness = d > 0 ? std::abs(side) / d : 1;
@@ -190,10 +189,8 @@ Touch PenaltyContact::nearest(const ContactPass& pass, const NearNode& near,
     if (is_behind) {
       t.u = -t.u;
       t.distance = -d;
-      if (d > facet.depth_limit) continue;
     }
     t.penetration = reach - t.distance;
-    if (t.penetration <= 0) continue;
     const double tie = 1e-9 * (d + reach);
     if (d < best_distance - tie || (d < best_distance + tie && t.steepness > best.steepness)) {
       best = t;
@@ -202,6 +199,10 @@ Touch PenaltyContact::nearest(const ContactPass& pass, const NearNode& near,
       best_distance = std::min(d, best_distance);
     }
   }
+  // Only the nearest facet can be touched: seen from above one face of a brick, a node lies behind
+  // the planes of the others.
+  const bool is_lost = best.facet && -best.distance > best.facet->depth_limit;
+  if (best.facet == nullptr || best.penetration <= 0 || is_lost) return {};
   return best;
 }
 

@@ -29,23 +29,25 @@ bool ContactPass::skips(int node, const ContactFacet& facet) const {
   return false;
 }
 
-double ContactPass::reach(const ContactFacet& facet, double largest_node_thickness) const {
-  const double thickness = thickness_scale * (facet.half_thickness + largest_node_thickness);
-  return facet.is_two_sided ? thickness : std::max(thickness, facet.depth_limit);
+double ContactPass::reach() const {
+  double node = 0, facet = 0, depth = 0;
+  for (const ContactNode& n : nodes) node = std::max(node, n.half_thickness);
+  for (const ContactFacet& f : facets) {
+    facet = std::max(facet, f.half_thickness);
+    if (!f.is_two_sided) depth = std::max(depth, f.depth_limit);
+  }
+  return std::max(thickness_scale * (node + facet), depth);
 }
 
 void search(const ContactPass& pass, std::span<const NodeRecord> nodes, double margin,
             std::vector<int>& out) {
-  double thickest = 0;
+  const double reach = pass.reach() + margin;
   Box3 of_nodes, of_facets;
-  for (const ContactNode& node : pass.nodes) {
-    thickest = std::max(thickest, node.half_thickness);
-    of_nodes.add(nodes[node.node].position());
-  }
+  for (const ContactNode& node : pass.nodes) of_nodes.add(nodes[node.node].position());
   std::vector<Box3> boxes(pass.facets.size());
   for (std::size_t f = 0; f < boxes.size(); ++f) {
     for (int n : pass.facets[f].node) boxes[f].add(nodes[n].position());
-    boxes[f].grow(pass.reach(pass.facets[f], thickest) + margin);
+    boxes[f].grow(reach);
     of_facets.add(boxes[f].low);
     of_facets.add(boxes[f].high);
   }

@@ -17,8 +17,9 @@ struct ContactPass {
 
   void find_neighbours();
   bool skips(int node, const ContactFacet& facet) const;
-  /// How far from its plane a facet can still be touched by a node, without the margin.
-  double reach(const ContactFacet& facet, double largest_node_thickness) const;
+  /// The farthest a node can be from a facet it touches, m; one value for all facets, so that the
+  /// nearest facet is always among the candidates when a farther one is.
+  double reach() const;
 };
 
 struct NearNode {

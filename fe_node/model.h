@@ -36,6 +36,8 @@ struct Model {
   std::vector<std::unique_ptr<const ContactInterface>> contacts;
   std::vector<FixedNode> fixed;
   std::vector<GuidedNodes> guided;
+  std::vector<GuidedBody> guided_bodies;
+  std::vector<BaseAcceleration> base_accelerations;
   std::vector<TiedNode> tied;
   std::vector<NodalForce> nodal_forces;
   std::vector<StartVelocity> start_velocities;

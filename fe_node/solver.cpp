@@ -163,7 +163,16 @@ struct Kick {
         gain(length_s / (1 + 0.5 * length_s * alpha)) {}
 };
 
-double guided_velocity(const GuidedNodes& guide, double time, double dt, double before) {
+Vec3 gravity_at(const Model& model, double time) {
+  Vec3 sum = model.settings.gravity;
+  for (const BaseAcceleration& a : model.base_accelerations)
+    sum += a.scale * a.curve.value(time) * a.direction;
+  return sum;
+}
+
+/// Velocity over the next step of what follows a curve.
+template <class Guide>
+double guided_velocity(const Guide& guide, double time, double dt, double before) {
   switch (guide.kind) {
     case MotionKind::Velocity:
       return guide.scale * guide.curve.value(time + 0.5 * dt);
@@ -179,7 +188,7 @@ double guided_velocity(const GuidedNodes& guide, double time, double dt, double 
 /// booked.
 void apply_constraints(const Model& model, State& state, Scratch& scratch, const Kick& kick,
                        double dt) {
-  const Vec3& gravity = model.settings.gravity;
+  const Vec3 gravity = gravity_at(model, state.time);
   for (const GuidedNodes& guide : model.guided)
     for (int n : guide.nodes) {
       const double before = state.nodes[n].velocity().dot(guide.direction);
@@ -214,7 +223,7 @@ void hold_fixed_nodes(const Model& model, State& state, const Scratch& scratch) 
 
 /// Kick and drift of the free nodes; constrained ones are put right afterwards.
 void integrate(const Model& model, State& state, Scratch& scratch, const Kick& kick, double dt) {
-  const Vec3 gravity = model.settings.gravity;
+  const Vec3 gravity = gravity_at(model, state.time);
   const double damping = model.settings.mass_damping;
   const int chunk_count = node_chunk_count(model);
 #pragma omp parallel for schedule(static) num_threads(scratch.threads)
@@ -260,15 +269,43 @@ void move_nodes_of(const RigidBody& body, const BodyState& moved, double dt, Sta
   }
 }
 
+/// The wrench on a free body with the reactions that make its guided directions follow their
+/// curves.
+Wrench guided_wrench(const Model& model, State& state, int body, Wrench wrench, const Vec3& gravity,
+                     double kick, double dt) {
+  const Inertia& inertia = model.bodies[body].inertia;
+  const BodyState& now = state.bodies[body];
+  for (const GuidedBody& guide : model.guided_bodies) {
+    if (guide.body != body) continue;
+    const int axis = guide.axis % 3;
+    const bool is_turn = guide.axis >= 3;
+    const double before = is_turn ? now.V_WB.w[axis] : now.V_WB.v[axis];
+    const double wanted = guided_velocity(guide, state.time, dt, before);
+    double reaction = 0;
+    if (is_turn) {
+      const Vec3 L = angular_momentum(model.bodies[body], now.X_WB, wanted * Vec3::Unit(axis));
+      reaction = (L[axis] - now.angular_momentum[axis]) / kick - wrench.tau[axis];
+      wrench.tau[axis] += reaction;
+    } else {
+      reaction = inertia.mass * ((wanted - before) / kick - gravity[axis]) - wrench.f[axis];
+      wrench.f[axis] += reaction;
+    }
+    state.energies.external_work += 0.5 * kick * reaction * (before + wanted);
+  }
+  return wrench;
+}
+
 void move_bodies(const Model& model, State& state, Scratch& scratch, double kick, double dt) {
-  const Vec3& gravity = model.settings.gravity;
+  const Vec3 gravity = gravity_at(model, state.time);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const RigidBody& body = model.bodies[b];
     BodyState& moved = state.bodies[b];
     const Twist before = moved.V_WB;
     if (body.role == BodyRole::Free) {
       const Vec3 momentum = moved.angular_momentum;
-      move_free_body(body, scratch.body_wrench[b], gravity, kick, dt, moved);
+      const Wrench wrench = guided_wrench(model, state, static_cast<int>(b), scratch.body_wrench[b],
+                                          gravity, kick, dt);
+      move_free_body(body, wrench, gravity, kick, dt, moved);
       state.energies.kinetic += 0.5 * body.inertia.mass * before.v.dot(moved.V_WB.v) +
                                 0.25 * (momentum + moved.angular_momentum).dot(moved.V_WB.w);
       state.energies.external_work +=

@@ -1,5 +1,6 @@
 #include "fe_node/state.h"
 
+#include "fe_node/constraint/rigid_fit.h"
 #include "fe_node/model.h"
 
 namespace crosswalk::fe {
@@ -17,6 +18,20 @@ BodyState initial_body(const RigidBody& body, const Pose& X_WD, const Twist& V_W
   return state;
 }
 
+/// A body of which nodes were given velocities starts with the rigid motion nearest to them.
+void start_body(const RigidBody& body, const std::vector<char>& is_started, const State& state,
+                BodyState& moved) {
+  std::vector<Vec3> x, v;
+  for (int n : body.nodes)
+    if (is_started[n]) {
+      x.push_back(state.nodes[n].position());
+      v.push_back(state.nodes[n].velocity());
+    }
+  if (x.empty()) return;
+  moved.V_WB = fit_twist(x, v, std::vector<double>(x.size(), 1.0), moved.X_WB.p);
+  moved.angular_momentum = angular_momentum(body, moved.X_WB, moved.V_WB.w);
+}
+
 }  // namespace
 
 State initial_state(const Model& model, const Pose& X_WD, const Twist& V_WD) {
@@ -30,9 +45,16 @@ State initial_state(const Model& model, const Pose& X_WD, const Twist& V_WD) {
     state.nodes[n].set_velocity(V_WD.shifted(X_WD.q * p_DN).v);
     state.nodes[n].inverse_mass = moves_freely(model, n) ? 1.0 / model.mass[n] : 0.0;
   }
+  std::vector<char> is_started(node_count, 0);
   for (const StartVelocity& start : model.start_velocities)
-    for (int n : start.nodes) state.nodes[n].set_velocity(X_WD.q * start.velocity);
-  for (const RigidBody& body : model.bodies) state.bodies.push_back(initial_body(body, X_WD, V_WD));
+    for (int n : start.nodes) {
+      state.nodes[n].set_velocity(X_WD.q * start.velocity);
+      is_started[n] = 1;
+    }
+  for (const RigidBody& body : model.bodies) {
+    state.bodies.push_back(initial_body(body, X_WD, V_WD));
+    start_body(body, is_started, state, state.bodies.back());
+  }
   for (const auto& block : model.blocks) {
     state.history.emplace_back(
         static_cast<std::size_t>(block->history_per_group()) * block->group_count(), 0.0);

@@ -27,6 +27,22 @@ struct GuidedNodes {
   double scale = 1;
 };
 
+/// One degree of freedom of a rigid body (0..2 along, 3..5 about the global axes) follows a curve.
+struct GuidedBody {
+  int body = 0;
+  int axis = 0;
+  MotionKind kind = MotionKind::Velocity;
+  Curve curve;
+  double scale = 1;
+};
+
+/// An acceleration that every mass feels: scale * curve(t) along a direction, m/s2.
+struct BaseAcceleration {
+  Vec3 direction = Vec3::UnitZ();
+  Curve curve;
+  double scale = 1;
+};
+
 /// A node that moves with the interpolated motion of up to four others (weights sum to 1).
 struct TiedNode {
   int node = 0;

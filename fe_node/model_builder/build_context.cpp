@@ -1,0 +1,122 @@
+#include "fe_node/model_builder/build_context.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace crosswalk::fe {
+
+void BuildContext::problem(Source source, std::string what, std::string expected, std::string found,
+                           std::string hint) {
+  ++problem_count;
+  problems.add({deck.place(source), std::move(what), std::move(expected), std::move(found),
+                std::move(hint)});
+}
+
+int BuildContext::node(DeckId id, Source source, std::string_view who) {
+  const auto found = node_index.find(id);
+  if (found != node_index.end()) return found->second;
+  problem(source, std::string(who), "a node of the deck", std::to_string(id.value));
+  return -1;
+}
+
+std::optional<Curve> BuildContext::curve(DeckId id, double x_unit, double y_unit, Source source,
+                                         std::string_view who, Curve::Outside outside) {
+  const auto found = curves.find(id);
+  if (found == curves.end()) {
+    problem(source, std::string(who), "a *DEFINE_CURVE of the deck", std::to_string(id.value));
+    return std::nullopt;
+  }
+  std::vector<double> x, y;
+  for (const auto& [a, b] : scaled_points(*found->second)) {
+    x.push_back(a * x_unit);
+    y.push_back(b * y_unit);
+  }
+  try {
+    return Curve(std::move(x), std::move(y), outside);
+  } catch (const std::invalid_argument& reason) {
+    problem(found->second->source, fmt::format("*DEFINE_CURVE {}", id.value),
+            "strictly rising abscissae and finite numbers", reason.what());
+    return std::nullopt;
+  }
+}
+
+std::vector<DeckId> BuildContext::set_ids(SetKind kind, DeckId id, Source source) {
+  const auto found = sets.find({kind, id});
+  if (found == sets.end()) {
+    problem(source, "set", "a set of the deck", std::to_string(id.value));
+    return {};
+  }
+  const DeckSet& set = *found->second;
+  std::vector<DeckId> ids = set.ids;
+  for (const auto& [first, last] : set.ranges)
+    for (std::int32_t i = first.value; i <= last.value; ++i) ids.emplace_back(i);
+  for (DeckId other : set.added_sets) {
+    const std::vector<DeckId> more = set_ids(kind, other, set.source);
+    ids.insert(ids.end(), more.begin(), more.end());
+  }
+  for (const GeneralEntry& entry : set.general) {
+    if (entry.option == "ALL" && kind == SetKind::Node) {
+      for (const DeckNode& n : deck.nodes) ids.push_back(n.id);
+    } else if (entry.option == "PART" && kind == SetKind::Node) {
+      for (DeckId part : entry.ids)
+        if (const auto index = part_index.find(part); index != part_index.end())
+          for (int n : nodes_of_parts({index->second})) ids.push_back(mesh().node_id[n]);
+    } else if (entry.option == "NODE" || entry.option == "PART") {
+      ids.insert(ids.end(), entry.ids.begin(), entry.ids.end());
+    } else {
+      problem(set.source, fmt::format("set {} option {}", id.value, entry.option),
+              "ALL, PART or NODE", entry.option);
+    }
+  }
+  return ids;
+}
+
+std::vector<int> BuildContext::node_set(DeckId id, Source source) {
+  std::vector<int> nodes;
+  for (DeckId n : set_ids(SetKind::Node, id, source))
+    // Members a range names without existing are left out, as the manual has it.
+    if (const auto found = node_index.find(n); found != node_index.end())
+      nodes.push_back(found->second);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+std::vector<int> BuildContext::part_set(DeckId id, Source source) {
+  std::vector<int> parts;
+  for (DeckId p : set_ids(SetKind::Part, id, source))
+    if (const auto found = part_index.find(p); found != part_index.end())
+      parts.push_back(found->second);
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+std::vector<int> BuildContext::nodes_of_parts(const std::vector<int>& parts) const {
+  std::vector<char> is_wanted(deck.parts.size(), 0);
+  for (int p : parts) is_wanted[p] = 1;
+  std::vector<int> nodes;
+  for (ElementKind kind : kElementKinds) {
+    const ElementTable& table = built.model.mesh.table(kind);
+    for (int e = 0; e < table.size(); ++e)
+      if (is_wanted[table.part[e]]) {
+        const std::span<const int> corners = built.model.mesh.corners(kind, e);
+        nodes.insert(nodes.end(), corners.begin(), corners.end());
+      }
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+const Section* BuildContext::section_of(const Part& part) const {
+  const auto found = sections.find(part.section);
+  return found == sections.end() ? nullptr : found->second;
+}
+
+const Material* BuildContext::material_of(const Part& part) const {
+  const auto found = materials.find(part.material);
+  return found == materials.end() ? nullptr : found->second;
+}
+
+}  // namespace crosswalk::fe

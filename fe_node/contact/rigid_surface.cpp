@@ -30,7 +30,14 @@ class RigidSurfaceContact final : public ContactInterface {
 
   /// indices: for each patch the number of candidates, then the candidates of all patches in order.
   void initialise(ContactHistory& history, const ContactContext& context) const override {
-    history.values.assign(kSlots * spec_.patches.size(), 0.0);
+    // After the patches' slots, one flag per patch and node: inside at the start.
+    const std::size_t patches = spec_.patches.size(), nodes = spec_.nodes.size();
+    history.values.assign((kSlots + nodes) * patches, 0.0);
+    const Pose X_BW = context.bodies[spec_.body].X_WB.inverse();
+    for (std::size_t k = 0; k < patches; ++k)
+      for (std::size_t i = 0; i < nodes; ++i)
+        if (deepest(spec_.patches[k], X_BW * context.nodes[spec_.nodes[i]].position()).depth > 0)
+          history.values[kSlots * patches + k * nodes + i] = 1;
     history.indices.reserve(spec_.patches.size() * (spec_.nodes.size() + 1));
     search(context, history);
   }
@@ -75,8 +82,11 @@ class RigidSurfaceContact final : public ContactInterface {
     const Pose X_BW = context.bodies[spec_.body].X_WB.inverse();
     const double margin = spec_.fastest * kStepsBetweenSearches * std::max(context.dt, 1e-6) + 1e-3;
     history.indices.assign(spec_.patches.size(), 0);
-    for (std::size_t k = 0; k < spec_.patches.size(); ++k)
-      for (int n : spec_.nodes) {
+    const std::size_t patches = spec_.patches.size(), nodes = spec_.nodes.size();
+    for (std::size_t k = 0; k < patches; ++k)
+      for (std::size_t i = 0; i < nodes; ++i) {
+        if (history.values[kSlots * patches + k * nodes + i] > 0) continue;
+        const int n = spec_.nodes[i];
         const Vec3 p = X_BW * context.nodes[n].position();
         if (is_near(spec_.patches[k], p, margin)) {
           history.indices.push_back(n);

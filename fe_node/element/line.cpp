@@ -82,7 +82,10 @@ class LineBlock final : public ElementBlock {
     }
   }
 
+  /// Only a truss is bounded by its own mass; what springs and muscles need depends on the nodes
+  /// they pull at, and is found from those at every step.
   double initial_stable_step(int element) const override {
+    if (!std::holds_alternative<ElasticLine>(law_)) return std::numeric_limits<double>::infinity();
     const LineAnswer answer = answer_of(law_, {strand_rest_[strand_of_[element]], 0.0, 0.0, 0.0});
     return step_bound(answer, corner_mass_[element] > 0 ? 2.0 / corner_mass_[element] : 0.0);
   }

@@ -32,7 +32,8 @@ void add_line_block(BuildContext& c, const Part& part, int index, std::vector<in
   std::optional<LineProperties> properties = line_properties(c, part);
   if (!properties) return;
   if (part.is_averaged) properties->strands = strands_of(c.mesh(), elements);
-  properties->minimum_step = element_controls(c, part).minimum_step;
+  if (std::holds_alternative<ElasticLine>(properties->law))
+    properties->minimum_step = element_controls(c, part).minimum_step;
   const auto is_apart = [&](int e) {
     const std::span<const int> n = c.mesh().corners(ElementKind::Line2, e);
     return (c.mesh().position[n[0]] - c.mesh().position[n[1]]).norm() > 0;

@@ -37,6 +37,11 @@ struct BuiltModel {
 /// Adds the rigid walls, calls Model::finish() and reports added mass.
 void finish_model(BuiltModel& built);
 
+/// The largest step, safety factor included, for which mass scaling adds at most `limit` of the
+/// whole mass and kPartLimit of any part's; for a model built without scaling.
+inline constexpr double kPartLimit = 0.05;
+double mass_scaling_step_for(const Model& model, double limit);
+
 /// Throws UserError.
 BuiltModel build_model(const Deck& deck, const BuildOptions& options);
 

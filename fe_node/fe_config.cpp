@@ -1,0 +1,107 @@
+#include "fe_node/fe_config.h"
+
+#include "common/units.h"
+
+namespace crosswalk::fe {
+namespace {
+
+generate::Fidelity fidelity_of(Fidelity fidelity) {
+  switch (fidelity) {
+    case Fidelity::Coarse:
+      return generate::Fidelity::Coarse;
+    case Fidelity::Medium:
+      return generate::Fidelity::Medium;
+    case Fidelity::Fine:
+      return generate::Fidelity::Fine;
+  }
+  return generate::Fidelity::Coarse;
+}
+
+generate::MassPreset mass_preset(const std::string& name) {
+  if (name == "untrimmed") return generate::MassPreset::Untrimmed;
+  if (name == "seed_a1") return generate::MassPreset::SeedA1;
+  return generate::MassPreset::Literature;
+}
+
+HeadNeckConfig read_head_neck(ConfigTable table, const Anthropometry& a, Fidelity fidelity) {
+  HeadNeckConfig config;
+  const std::string deck = table.text_or(
+      "deck", "generate",
+      "`generate`: head and neck are made from the subject's measures; else the path of a keyword "
+      "deck.");
+  config.is_generated = deck == "generate";
+  config.spec.fidelity = fidelity_of(fidelity);
+  config.spec.head = {a.head_length, a.head_breadth, a.head_to_chin_height};
+  config.spec.neck_circumference = a.neck_circumference;
+  config.spec.stature = a.standing_height;
+  config.spec.mass.preset =
+      mass_preset(table.choice_or("mass", {"literature", "seed_a1", "untrimmed"}, "literature",
+                                  "Mass properties the generated head is trimmed to."));
+  config.spec.activation =
+      table.quantity_or("muscle_activation", Dimension::None, {0, 1}, 0.0,
+                        "Activation of all neck muscles of the generated model; 0: passive.");
+  if (!config.is_generated) {
+    config.deck = table.file("deck", "Path of a keyword deck, from the scenario's folder.");
+    const std::string units = table.text_or(
+        "units", "", "Unit system of the deck, such as mm-tonne-s, if it states none.");
+    if (!units.empty()) {
+      config.units = unit_system_from(units);
+      if (config.units == UnitSystem::Unknown)
+        table.problem("units", "m-kg-s, mm-tonne-s, mm-kg-ms, ...", units);
+    }
+    const std::vector<double> joint =
+        table.quantities("joint", Dimension::Length, 3,
+                         "Point of the deck that stands on the multibody C7/T1 joint.");
+    if (joint.size() == 3) config.joint = {joint[0], joint[1], joint[2]};
+  }
+  config.skull_set = table.text_or("skull_nodes", "skull_fit",
+                                   "Title of the node set whose rigid fit is the head's motion.");
+  config.head_parts =
+      table.text_or("head_parts", "head", "Title of the part set whose mass centre is reported.");
+  config.brain_parts =
+      table.text_or("brain_parts", "brain", "Title of the part set of the strain metrics.");
+  config.surface_parts = table.text_or("surface_parts", "outer_surface",
+                                       "Title of the part set that touches car and shoulders.");
+  return config;
+}
+
+}  // namespace
+
+FeConfig read_fe_config(ConfigDocument& document, const Scenario& scenario) {
+  FeConfig config;
+  ConfigTable root = document.root();
+  ConfigTable subject = root.table("subject", "The pedestrian.");
+  config.body = read_body_description(subject);
+  config.head_neck = read_head_neck(root.table("head_neck", "The finite-element head and neck."),
+                                    config.body.measures, scenario.fidelity);
+  config.interfaces = scenario.interfaces;
+  std::vector<std::string> followers;
+  for (const InterfaceSpec& interface : scenario.interfaces)
+    if (!interface.is_attached) followers.push_back(interface.body);
+  if (!followers.empty()) config.partner_shapes = read_contact_shapes(root, followers);
+  config.vehicle_friction =
+      root.table("vehicle", "The car.")
+          .quantity_or("friction", Dimension::None, {0, 2}, 0.3, "Friction of body and car.");
+  config.self_friction = config.body.contact.friction_self;
+  config.gravity = root.table("environment", "What is around.")
+                       .quantity_or("gravity", Dimension::Acceleration, {0, 100}, kStandardGravity,
+                                    "Gravity, downwards.");
+
+  ConfigTable fe = root.table("fe", "The finite-element solver.");
+  config.step_scale = fe.quantity_or("step_scale", Dimension::None, {0.1, 1}, 0.9,
+                                     "Share of the smallest stable step that is taken.");
+  config.added_mass_limit =
+      fe.quantity_or("added_mass_limit", Dimension::None, {0, 0.05}, 0.01,
+                     "Share of the model's mass that mass scaling may add; 0: no scaling.");
+  ConfigTable output = root.table("output", "What is written beside the signals.");
+  config.field_interval = output.quantity_or("field_interval", Dimension::Time, kNonNegative, 1e-3,
+                                             "Time between field files; 0: none.");
+  config.tissue_interval = output.quantity_or("tissue_interval", Dimension::Time, kPositive, 1e-3,
+                                              "Time between published tissue metrics.");
+  config.strain_interval =
+      output.quantity_or("strain_interval", Dimension::Time, kPositive, 2e-4,
+                         "Time between samples of the largest strains so far.");
+  return config;
+}
+
+}  // namespace crosswalk::fe

@@ -1,0 +1,65 @@
+// The finite-element participant: head and neck between the multibody torso and what they strike.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "fe_node/boundary.h"
+#include "fe_node/fe_config.h"
+#include "fe_node/model_builder/model_builder.h"
+#include "fe_node/output/head_motion.h"
+#include "fe_node/output/tissue_metrics.h"
+
+namespace crosswalk::fe {
+
+class FieldWriter;
+
+class FeNode : public FeParticipant {
+ public:
+  /// `folder`: of the run; the generated deck and the fields go there; empty: nothing is written.
+  FeNode(FeConfig config, int threads, std::filesystem::path folder);
+  ~FeNode() override;
+
+  std::vector<InterfaceBody> interface_bodies() const override;
+  std::vector<InterfaceBody> place(std::vector<InterfaceBody> bodies) override;
+  FeReply advance(const FeGrant& grant, RecordSink& sink) override;
+  std::string description() const override;
+  std::int64_t progress() const override { return progress_; }
+  std::vector<std::byte> save_state() const override;
+  void load_state(const std::vector<std::byte>& bytes) override;
+
+  const BuiltModel& built() const { return built_; }
+  const State& state() const { return run_.state; }
+
+ private:
+  /// Everything that a checkpoint holds.
+  struct Run {
+    State state;
+    Twist head_twist;
+    StrainPeaks peaks;
+    std::int64_t next_tissue_ns = 0, next_strain_ns = 0, next_field_ns = 0;
+  };
+
+  void add_partner_contacts();
+  FeReply run_window(const FeGrant& grant);
+  void publish(const WindowId& id, RecordSink& sink);
+  void write_last_sound_frame();
+
+  FeConfig config_;
+  int threads_;
+  std::filesystem::path folder_;
+  BuiltModel built_;
+  Boundary boundary_;
+  Vec3 joint_ = Vec3::Zero();  ///< deck frame
+  HeadMotion head_;
+  TissueMetrics tissue_;
+  std::optional<Scratch> scratch_;
+  std::unique_ptr<FieldWriter> fields_;
+  Run run_, saved_;
+  FeReply last_reply_;
+  std::atomic<std::int64_t> progress_{0};
+};
+
+}  // namespace crosswalk::fe

@@ -9,7 +9,6 @@ namespace crosswalk::fe::generate {
 
 namespace {
 
-constexpr int kSolidSection = 1, kSpringSection = 2, kFirstOwnSection = 100;
 constexpr int kStiffnessHourglass = 5;  ///< IHQ: Flanagan-Belytschko stiffness form, exact volume
 constexpr std::size_t kTitleLength = 78;
 
@@ -22,39 +21,45 @@ Overloaded(F...) -> Overloaded<F...>;
 
 /// The law's numbers from SI to the deck's units; refuses laws the generators do not use.
 MaterialLaw in_units(MaterialLaw law, const UnitFactors& u) {
-  std::visit(Overloaded{[&](mat::Elastic& m) { m.youngs /= u.stress(); },
-                        [&](mat::Viscoelastic& m) {
-                          m.bulk /= u.stress();
-                          m.shear_short /= u.stress();
-                          m.shear_long /= u.stress();
-                          m.decay *= u.time;
-                        },
-                        [&](mat::PlasticKinematic& m) {
-                          m.youngs /= u.stress();
-                          m.yield /= u.stress();
-                          m.tangent /= u.stress();
-                        },
-                        [&](mat::PiecewiseLinearPlasticity& m) {
-                          m.youngs /= u.stress();
-                          m.yield /= u.stress();
-                          m.tangent /= u.stress();
-                          for (double& stress : m.stress) stress /= u.stress();
-                        },
-                        [&](mat::Rigid& m) { m.youngs /= u.stress(); },
-                        [&](mat::Muscle& m) {
-                          m.peak_stress /= u.stress();
-                          m.maximum_rate *= u.time;
-                        },
-                        [](mat::SpringNonlinearElastic&) {},
-                        [](auto&) { CW_ASSERT(false && "law without unit rule"); }},
-             law);
+  std::visit(
+      Overloaded{[&](mat::Elastic& m) { m.youngs /= u.stress(); },
+                 [&](mat::Viscoelastic& m) {
+                   m.bulk /= u.stress();
+                   m.shear_short /= u.stress();
+                   m.shear_long /= u.stress();
+                   m.decay *= u.time;
+                 },
+                 [&](mat::PlasticKinematic& m) {
+                   m.youngs /= u.stress();
+                   m.yield /= u.stress();
+                   m.tangent /= u.stress();
+                 },
+                 [&](mat::PiecewiseLinearPlasticity& m) {
+                   m.youngs /= u.stress();
+                   m.yield /= u.stress();
+                   m.tangent /= u.stress();
+                   for (double& stress : m.stress) stress /= u.stress();
+                 },
+                 [&](mat::LaminatedGlass& m) {
+                   for (double* stress : {&m.glass_youngs, &m.glass_yield, &m.glass_tangent,
+                                          &m.polymer_youngs, &m.polymer_yield, &m.polymer_tangent})
+                     *stress /= u.stress();
+                 },
+                 [&](mat::Rigid& m) { m.youngs /= u.stress(); },
+                 [&](mat::Muscle& m) {
+                   m.peak_stress /= u.stress();
+                   m.maximum_rate *= u.time;
+                 },
+                 [](mat::SpringNonlinearElastic&) {},
+                 [](auto&) { CW_ASSERT(false && "law without unit rule"); }},
+      law);
   return law;
 }
 
 class Export {
  public:
-  Export(const ModelDraft& draft, UnitSystem units)
-      : draft_(draft), units_(unit_factors(units)), deck_{} {
+  Export(const ModelDraft& draft, UnitSystem units, const DeckNumbers& first)
+      : draft_(draft), units_(unit_factors(units)), first_(first), next_section_(first.section) {
     deck_.title = draft.title;
     deck_.units = units;
   }
@@ -70,7 +75,7 @@ class Export {
   }
 
  private:
-  static DeckId node_id(int index) { return DeckId(index + 1); }
+  DeckId node_id(int index) const { return DeckId(first_.node + index); }
 
   void add_nodes() {
     for (std::size_t i = 0; i < draft_.mesh.nodes.size(); ++i)
@@ -94,30 +99,44 @@ class Export {
 
   DeckId section(const PartSpec& spec) {
     Section section;
+    DeckId* shared = nullptr;
     std::visit(Overloaded{[&](const SolidSection&) {
-                            section.id = DeckId(kSolidSection);
+                            shared = &solid_section_;
                             section.law = SectionSolid{.formulation = 1};
                           },
                           [&](const SpringSection&) {
-                            section.id = DeckId(kSpringSection);
+                            shared = &spring_section_;
                             section.law = SectionDiscrete{};
                           },
                           [&](const TrussSection& truss) {
-                            section.id = DeckId(own_sections_++);
                             SectionBeam beam{.formulation = 3};
                             beam.area = truss.area / (units_.length * units_.length);
                             section.law = beam;
                           },
-                          [&](const ShellSection& shell) {
-                            section.id = DeckId(own_sections_++);
-                            SectionShell law{.formulation = shell.is_membrane ? 5 : 2};
-                            law.points = shell.is_membrane ? 1 : shell.points;
-                            law.thickness.fill(shell.thickness / units_.length);
-                            section.law = law;
-                          }},
+                          [&](const ShellSection& shell) { section.law = shell_section(shell); }},
                spec.section);
-    if (sections_.insert(section.id).second) deck_.sections.push_back(section);
+    if (shared != nullptr && shared->given()) return *shared;
+    section.id = DeckId(next_section_++);
+    section.title = shared == nullptr ? spec.name : "";
+    if (shared != nullptr) *shared = section.id;
+    deck_.sections.push_back(section);
     return section.id;
+  }
+
+  SectionShell shell_section(const ShellSection& shell) {
+    SectionShell law{.formulation = shell.is_membrane ? 5 : 2};
+    law.points = shell.is_membrane ? 1 : shell.points;
+    law.shear_factor = 5.0 / 6.0;
+    law.thickness.fill(shell.thickness / units_.length);
+    if (shell.rule.empty()) return law;
+    IntegrationShell rule{.id = DeckId(next_section_),
+                          .points = static_cast<int>(shell.rule.size())};
+    for (const auto& [position, weight] : shell.rule)
+      rule.rows.push_back({.position = position, .weight = weight});
+    deck_.integrations.push_back(rule);
+    law.points = rule.points;
+    law.rule = -rule.id.value;
+    return law;
   }
 
   DeckId hourglass(const SolidSection& solid) {
@@ -130,7 +149,7 @@ class Export {
   }
 
   void add_elements() {
-    int id = 0;
+    int id = first_.element - 1;
     for (const Hex& hex : draft_.mesh.hexes) {
       SolidElement solid{.id = DeckId(++id), .part = DeckId(hex.part)};
       for (int c = 0; c < 8; ++c) solid.nodes[c] = node_id(hex.node[c]);
@@ -170,7 +189,7 @@ class Export {
   }
 
   void add_sets() {
-    int id = 0;
+    int id = first_.set - 1;
     for (const NodeSet& set : draft_.mesh.sets)
       deck_.sets.push_back(node_set(++id, set.name, set.nodes));
     for (const RigidAttachment& attachment : draft_.mesh.attachments) {
@@ -179,7 +198,7 @@ class Export {
       deck_.extra_nodes.push_back(
           {.kind = NodeTarget::Set, .part = DeckId(attachment.part), .target = DeckId(id)});
     }
-    id = 0;
+    id = first_.set - 1;
     for (const PartSetSpec& spec : draft_.part_sets) {
       DeckSet set{.kind = SetKind::Part, .id = DeckId(++id), .title = spec.name};
       for (const int part : spec.parts) set.ids.push_back(DeckId(part));
@@ -187,7 +206,7 @@ class Export {
     }
   }
 
-  static DeckSet node_set(int id, const std::string& name, const std::vector<int>& nodes) {
+  DeckSet node_set(int id, const std::string& name, const std::vector<int>& nodes) const {
     DeckSet set{.kind = SetKind::Node, .id = DeckId(id), .title = name};
     // Rising and without repetition.
     const std::set<int> unique(nodes.begin(), nodes.end());
@@ -204,14 +223,17 @@ class Export {
 
   const ModelDraft& draft_;
   UnitFactors units_;
+  DeckNumbers first_;
   Deck deck_;
-  std::set<DeckId> sections_;
+  DeckId solid_section_, spring_section_;
+  int next_section_;
   std::map<double, DeckId> hourglass_;
-  int own_sections_ = kFirstOwnSection;
 };
 
 }  // namespace
 
-Deck to_deck(const ModelDraft& draft, UnitSystem units) { return Export(draft, units).run(); }
+Deck to_deck(const ModelDraft& draft, UnitSystem units, const DeckNumbers& first) {
+  return Export(draft, units, first).run();
+}
 
 }  // namespace crosswalk::fe::generate

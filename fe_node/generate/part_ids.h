@@ -29,5 +29,8 @@ inline constexpr int kFlesh = 6000;
 inline constexpr int kBlockTorsoUp = 7001;
 inline constexpr int kBlockClavicleLeft = 7002;
 inline constexpr int kBlockClavicleRight = 7003;
+inline constexpr int kWindshield = 8001;
+inline constexpr int kWindshieldBead = 8002;
+inline constexpr int kBlockBuck = 8003;
 
 }  // namespace crosswalk::fe::generate::part

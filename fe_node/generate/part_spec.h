@@ -18,6 +18,8 @@ struct ShellSection {
   double thickness = 0;  ///< m
   int points = 5;
   bool is_membrane = false;
+  /// Position (-1 bottom .. 1 top) and weight of own points through the thickness; empty: Gauss.
+  std::vector<std::pair<double, double>> rule;
 };
 struct TrussSection {
   double area = 0;  ///< m2

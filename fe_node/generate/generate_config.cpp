@@ -1,0 +1,93 @@
+#include "fe_node/generate/generate_config.h"
+
+#include <map>
+#include <string>
+
+namespace crosswalk::fe::generate {
+
+namespace {
+
+template <class T>
+T chosen(ConfigTable& table, std::string_view key,
+         const std::vector<std::pair<std::string, T>>& options, std::string_view doc) {
+  std::vector<std::string> names;
+  for (const auto& option : options) names.push_back(option.first);
+  const std::string name = table.choice_or(key, names, names.front(), doc);
+  for (const auto& option : options)
+    if (option.first == name) return option.second;
+  return options.front().second;
+}
+
+/// A subject's measure has to be inside what the head's shape was checked for.
+void check(ConfigTable& table, std::string_view what, double value, double min, double max) {
+  if (value >= min && value <= max) return;
+  table.problem("generator",
+                "a subject whose " + std::string(what) + " is " + std::to_string(1e3 * min) +
+                    " .. " + std::to_string(1e3 * max) + " mm",
+                std::to_string(1e3 * value) + " mm",
+                "give a deck of your own (docs/own_model.md) for other subjects");
+}
+
+}  // namespace
+
+HeadNeckSpec read_head_neck(ConfigTable table, const Anthropometry& subject) {
+  HeadNeckSpec spec;
+  spec.head = {subject.head_length, subject.head_breadth, subject.head_to_chin_height};
+  spec.neck_circumference = subject.neck_circumference;
+  spec.stature = subject.standing_height;
+  check(table, "head length", spec.head.length, 0.165, 0.220);
+  check(table, "head breadth", spec.head.breadth, 0.135, 0.175);
+  check(table, "head to chin height", spec.head.chin_height, 0.185, 0.255);
+  check(table, "neck circumference", spec.neck_circumference, 0.300, 0.480);
+  spec.fidelity = chosen<Fidelity>(
+      table, "fidelity",
+      {{"coarse", Fidelity::Coarse}, {"medium", Fidelity::Medium}, {"fine", Fidelity::Fine}},
+      "mesh size of the generated head and neck");
+  spec.mass.preset = chosen<MassPreset>(table, "mass",
+                                        {{"literature", MassPreset::Literature},
+                                         {"seed_a1", MassPreset::SeedA1},
+                                         {"measured", MassPreset::Measured},
+                                         {"untrimmed", MassPreset::Untrimmed}},
+                                        "what the head's mass and moments are trimmed to");
+  if (spec.mass.preset == MassPreset::Measured) {
+    spec.mass.head_mass =
+        table.quantity("head_mass", Dimension::Mass, {2.0, 8.0}, "of the subject's head");
+    const std::vector<double> moments =
+        table.quantities("head_moments", Dimension::Inertia, 3,
+                         "about the head's centre: front-back, left-right, vertical axis");
+    if (moments.size() == 3) spec.mass.head_moments = {moments[0], moments[1], moments[2]};
+  }
+  spec.muscle_area_factor =
+      table.quantity_or("muscle_area_factor", Dimension::None, {0.2, 3.0}, spec.muscle_area_factor,
+                        "on the muscle areas of an average female");
+  spec.activation = table.quantity_or("activation", Dimension::None, {0.0, 1.0}, spec.activation,
+                                      "of all neck muscles; 0 for cadavers");
+  return spec;
+}
+
+WindshieldSpec read_windshield(ConfigTable table) {
+  WindshieldSpec spec;
+  spec.kind = chosen<WindshieldKind>(
+      table, "kind", {{"panel", WindshieldKind::Panel}, {"laminated", WindshieldKind::Laminated}},
+      "sheet of the test buck, or glass and PVB");
+  const auto length = [&](std::string_view name, Range range, double fallback,
+                          std::string_view doc) {
+    return table.quantity_or(name, Dimension::Length, range, fallback, doc);
+  };
+  spec.cell = length("cell", {0.003, 0.1}, spec.cell, "element size");
+  spec.lower_x = length("lower_x", {}, spec.lower_x, "lower edge behind the foremost bumper point");
+  spec.lower_z = length("lower_z", {}, spec.lower_z, "lower edge above the ground");
+  spec.upper_x = length("upper_x", {}, spec.upper_x, "upper edge behind the foremost bumper point");
+  spec.upper_z = length("upper_z", {}, spec.upper_z, "upper edge above the ground");
+  spec.width = length("width", {0.3, 2.5}, spec.width, "width of the pane");
+  spec.sagitta = length("sagitta", {0, 0.2}, spec.sagitta, "bulge of the middle outwards");
+  spec.panel_thickness =
+      length("panel_thickness", {2e-4, 0.01}, spec.panel_thickness, "of the panel");
+  spec.glass_thickness =
+      length("glass_thickness", {1e-3, 0.01}, spec.glass_thickness, "of each glass ply");
+  spec.pvb_thickness =
+      length("pvb_thickness", {2e-4, 5e-3}, spec.pvb_thickness, "of the interlayer");
+  return spec;
+}
+
+}  // namespace crosswalk::fe::generate

@@ -215,10 +215,10 @@ class Export {
   }
 
   void add_control() {
-    deck_.control.time_step = Control::TimeStep{.scale = 0.9};
-    deck_.control.bulk_viscosity = Control::BulkViscosity{.quadratic = 1.5, .linear = 0.06};
+    deck_.control.time_step = TimeStepControl{.scale = 0.9};
+    deck_.control.bulk_viscosity = BulkViscosityControl{.quadratic = 1.5, .linear = 0.06};
     deck_.control.energy =
-        Control::Energy{.hourglass = 2, .rigid_wall = 2, .sliding = 2, .damping = 2};
+        EnergyControl{.hourglass = 2, .rigid_wall = 2, .sliding = 2, .damping = 2};
   }
 
   const ModelDraft& draft_;

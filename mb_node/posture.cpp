@@ -190,6 +190,9 @@ class Solver {
         (lowest_of_foot(floating) > -kSoleDepth ? low : high) = middle;
       }
       level_foot(floating, R_shank, high);
+    } else {  // a swinging leg: the foot stays level in the air
+      high = 0;
+      level_foot(floating, R_shank, 0);
     }
     residuals_.push_back({"plantarflexion of the trailing foot" + floating + " (rad)", 0, high});
     residuals_.push_back({"lowest point of the left foot (m)", -kSoleDepth, lowest_of_foot("_l")});
@@ -234,6 +237,44 @@ ArmAngles read_arm(ConfigTable& table, const std::string& side) {
   return arm;
 }
 
+/// Legs and arms of a walker: the right leg at `phase` percent of its stride, the left half a
+/// stride on.
+void read_gait(ConfigTable& posture, PostureSettings& s) {
+  if (!posture.has("gait")) {
+    if (posture.has("gait_phase")) {
+      posture.problem("gait_phase", "a [posture.gait] table with the angles of the stride", "none",
+                      "write `base = \"../postures/walking.toml\"`");
+    }
+    posture.quantity_or(
+        "gait_phase", Dimension::None, {0, 100}, 0,
+        "percent of the right leg's stride, heel contact at 0; needs [posture.gait]");
+    return;
+  }
+  ConfigTable gait = posture.table("gait", "joint angles over one stride");
+  const auto curve = [&](const char* name, const char* doc) {
+    return gait.curve(name, Dimension::None, Dimension::Angle, Curve::Outside::Hold, doc);
+  };
+  const Curve hip = curve("hip_flexion", "against percent of the stride");
+  const Curve knee = curve("knee_flexion", "against percent of the stride");
+  const Curve shoulder = curve("shoulder_flexion", "against percent of the same side's stride");
+  const double phase = posture.quantity(
+      "gait_phase", Dimension::None, {0, 100},
+      "percent of the right leg's stride, heel contact at 0; needs [posture.gait]");
+  const double other = std::fmod(phase + 50, 100);
+  s.right_leg.hip_flexion = hip.value(phase);
+  s.right_leg.knee_flexion = knee.value(phase);
+  s.left_leg.hip_flexion = hip.value(other);
+  s.left_leg.knee_flexion = knee.value(other);
+  s.right_arm.shoulder_flexion = shoulder.value(phase);
+  s.left_arm.shoulder_flexion = shoulder.value(other);
+  for (ArmAngles* arm : {&s.right_arm, &s.left_arm}) {
+    arm->shoulder_abduction =
+        std::max(arm->shoulder_abduction, 10 * kDegree);              // clear of the hips [E]
+    arm->elbow_flexion = std::max(arm->elbow_flexion, 20 * kDegree);  // [E]
+  }
+  s.arms = Arms::Angles;
+}
+
 }  // namespace
 
 PostureSettings read_posture(ConfigTable posture) {
@@ -264,6 +305,7 @@ PostureSettings read_posture(ConfigTable posture) {
                                 "harness: the weight is carried until the car touches") == "none"
                   ? Support::None
                   : Support::Harness;
+  read_gait(posture, s);
   return s;
 }
 

@@ -4,6 +4,7 @@
 #include "mb_node/commands.h"
 #include "mb_node/mb_config.h"
 #include "mb_node/mb_node.h"
+#include "mb_node/study.h"
 
 int main(int argc, char** argv) {
   using namespace crosswalk;
@@ -21,5 +22,5 @@ int main(int argc, char** argv) {
              return run_mb_node(context, node);
            },
        .check_file = {},
-       .commands = {mb::solo_command(), mb::subject_command()}});
+       .commands = {mb::solo_command(), mb::subject_command(), mb::study_command()}});
 }

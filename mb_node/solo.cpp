@@ -70,13 +70,13 @@ void note_head_contact(const MbNode& node, const Twist& head, SoloSummary& s, do
   s.car_speed = car.v;
   s.head_angle = std::atan2(-relative.z(), relative.head<2>().norm());
   const auto& forces = node.dynamics().contacts().car_component;
-  const auto& broken = vehicle.front.components;
+  const auto& components = vehicle.front.components;
   double largest = 0;
   for (std::size_t c = 0; c < forces.size(); ++c) {
     const double share = forces[c].dot(node.dynamics().contacts().head_car);
     if (share > largest) {
       largest = share;
-      s.head_component = broken[c].name;
+      s.head_component = components[c].name;
     }
   }
 }
@@ -100,8 +100,9 @@ SoloResult run_solo(const MbConfig& config, double duration) {
   MbNode node(config);
   result.description = node.description();
   SoloSummary& s = result.summary;
-  s.head_contact = s.wrap_around = s.head_speed = s.head_angle = kNaN;
+  s.head_contact = s.wrap_around = s.head_speed = s.head_angle = s.head_travel = s.head_drop = kNaN;
   s.total_mass = config.body.total_mass();
+  s.stature = config.body.measures.standing_height;
   const int head = node.model().head;
   CW_ASSERT(head >= 0);
   const Vec3 head_start = node.dynamics().kinematics().p[head];
@@ -201,13 +202,15 @@ std::string summary_text(const SoloResult& result, const std::string& name) {
       "  head speed over car      {:.2f} m/s, {:.2f} x car speed, {:.0f} deg below horizontal\n"
       "  head travel along car    {:.0f} mm, drop {:.0f} mm\n"
       "  peak head acceleration   {:.0f} g (1 ms mean)\n"
+      "  centre of mass           moved {:.2f} m along the car's path, {:.2f} m/s at the end\n"
       "  failures                 {}\n"
-      "  energy balance           {:.3f} % of the largest kinetic energy\n"
+      "  energy balance           {:.2g} % of the largest kinetic energy\n"
       "  wall time                {:.1f} s, real-time factor {:.1f}\n",
       name, 1e3 * duration, 1e3 * s.head_contact, s.head_component, 1e3 * s.wrap_around,
       s.head_speed, s.head_speed / s.car_speed, s.head_angle / kDegree, 1e3 * s.head_travel,
-      1e3 * s.head_drop, s.head_peak / kStandardGravity, broken.empty() ? "none" : broken,
-      100 * s.energy_error, s.wall, s.wall / std::max(1e-9, duration));
+      1e3 * s.head_drop, s.head_peak / kStandardGravity, s.throw_distance, s.rest_speed,
+      broken.empty() ? "none" : broken, 100 * s.energy_error, s.wall,
+      s.wall / std::max(1e-9, duration));
 }
 
 }  // namespace crosswalk::mb

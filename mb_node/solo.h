@@ -37,6 +37,7 @@ struct SoloSummary {
   double rest_speed = 0;                 ///< m/s of the COG at the end
   double energy_error = 0;               ///< balance over the largest energy
   double total_mass = 0;                 ///< kg
+  double stature = 0;        ///< m
   double wall = 0;                       ///< s
   std::vector<std::string> broken;       ///< bones and ligaments
 };

@@ -115,10 +115,12 @@ double stop_moment(const StopLaw& law, double depth, StopHistory& history) {
 }
 
 double stop_energy(const StopLaw& law, double depth, const StopHistory& history) {
-  const double start = kUnloadStart * history.deepest;
+  // The history is of the last moment asked for; the joint may have gone deeper since, or touched.
+  const double deepest = std::max(history.deepest, depth);
+  const double start = kUnloadStart * deepest;
   if (depth <= start) return 0;
-  const double range = history.deepest - start;
-  return envelope(law, history.deepest) * range / (kUnloadExponent + 1) *
+  const double range = deepest - start;
+  return envelope(law, deepest) * range / (kUnloadExponent + 1) *
          std::pow((depth - start) / range, kUnloadExponent + 1);
 }
 

@@ -84,6 +84,11 @@ TEST(Stop, CycleLosesTheStatedPartOfTheEnergy) {
   }
 }
 
+TEST(Stop, EnergyOfAFirstTouchIsWhatUnloadingGivesBack) {
+  const StopHistory untouched;  // the moment has not been asked for yet
+  EXPECT_NEAR(stop_energy({600, 0}, 0.01, untouched), 600 * 0.01 * 0.7 * 0.01 / 2.5, 1e-12);
+}
+
 TEST(Ligament, IsElasticUntilItTearsAndThenUnloadsSteeply) {
   const BodyDescription body = load_subject("male_50");
   const LigamentLaw& law =

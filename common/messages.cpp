@@ -382,6 +382,7 @@ class Gate {
     if (problem_ || std::abs(value) <= limit) return;  // false for NaN
     problem_ = fmt::format("{} = {} (believable: up to {})", field, value, limit);
   }
+  void energy(std::string_view field, double value) { number(field, value, kEnergy); }
   template <class T, std::size_t N>
   void array(std::string_view field, int body, const T (&values)[N], double limit,
              double limit_angular = 0) {
@@ -436,10 +437,13 @@ std::optional<std::string> problem_in(const msg::mb_done& m) {
   Gate gate;
   gate.count("n_bodies", m.n_bodies, kMaxInterfaceBodies);
   gate.count("status", m.status, 2);
-  for (const double energy : {m.kinetic, m.gravity, m.joint_elastic, m.joint_dissipated,
-                              m.contact_absorbed, m.car_work, m.interface_work}) {
-    gate.number("an energy", energy, Gate::kEnergy);
-  }
+  gate.energy("kinetic", m.kinetic);
+  gate.energy("gravity", m.gravity);
+  gate.energy("joint_elastic", m.joint_elastic);
+  gate.energy("joint_dissipated", m.joint_dissipated);
+  gate.energy("contact_absorbed", m.contact_absorbed);
+  gate.energy("car_work", m.car_work);
+  gate.energy("interface_work", m.interface_work);
   for (int k = 0; k < std::min(m.n_bodies, kMaxInterfaceBodies); ++k) gate.motion(k, m.body[k]);
   return gate.result();
 }
@@ -462,10 +466,13 @@ std::optional<std::string> problem_in(const msg::fe_done& m) {
   Gate gate;
   gate.count("n_bodies", m.n_bodies, kMaxInterfaceBodies);
   gate.count("status", m.status, 2);
-  for (const double energy : {m.kinetic, m.internal, m.hourglass, m.contact, m.damping,
-                              m.external_work, m.interface_work}) {
-    gate.number("an energy", energy, Gate::kEnergy);
-  }
+  gate.energy("kinetic", m.kinetic);
+  gate.energy("internal", m.internal);
+  gate.energy("hourglass", m.hourglass);
+  gate.energy("contact", m.contact);
+  gate.energy("damping", m.damping);
+  gate.energy("external_work", m.external_work);
+  gate.energy("interface_work", m.interface_work);
   gate.number("added_mass", m.added_mass, Gate::kMass);
   gate.number("head_contact_force", m.head_contact_force, Gate::kForce);
   for (int k = 0; k < std::min(m.n_bodies, kMaxInterfaceBodies); ++k) {

@@ -95,7 +95,8 @@ void print_file(const fs::path& file) {
 /// What a run that ended early leaves behind.
 void tell_what_was_kept(const RunDirectory& directory) {
   std::string kept;
-  for (const fs::path& file : {directory.signals(), directory.channels(), directory.summary()})
+  for (const fs::path& file :
+       {directory.report(), directory.signals(), directory.channels(), directory.summary()})
     if (std::error_code error; fs::exists(file, error))
       kept +=
           fmt::format("{} ({}), ", file.filename().string(), size_text(fs::file_size(file, error)));

@@ -47,6 +47,15 @@ class Rows {
     row.status = value <= limit ? Verdict::Good : above;
   }
 
+  /// A limit of a head injury metric; without a blow to the head it says nothing.
+  void hold_against_injury_limit(double value, double limit, const std::string& text,
+                                 Verdict above) {
+    hold_against_limit(value, limit, text, above);
+    if (summary_.head_contact) return;
+    rows_.back().status = Verdict::Info;
+    rows_.back().reading = "head not struck";
+  }
+
   std::vector<VerdictRow> take() { return std::move(rows_); }
 
  private:
@@ -91,12 +100,12 @@ void add_linear(Rows& rows, const Summary& s) {
   rows.add(kInjury, "HIC15", fmt::format("{:.0f}", l.HIC15.value), "").note =
       "Head injury criterion over at most 15 ms." +
       risk_note(s, "hic_lognormal", "AIS3+", "serious head injury");
-  rows.hold_against_limit(l.HIC15.value, kHic15Limit, "up to 700 (FMVSS 208)", Verdict::Bad);
+  rows.hold_against_injury_limit(l.HIC15.value, kHic15Limit, "up to 700 (FMVSS 208)", Verdict::Bad);
   if (l.clip_single) {
     rows.add(kInjury, "3 ms acceleration", fmt::format("{:.1f}", l.clip_single->value), "g").note =
         fmt::format("Exceeded for 3 ms; the peak is {:.0f} g.", l.peak_g);
-    rows.hold_against_limit(l.clip_single->value, kClip3msLimit, "up to 80 g (FMVSS 208)",
-                            Verdict::Bad);
+    rows.hold_against_injury_limit(l.clip_single->value, kClip3msLimit, "up to 80 g (FMVSS 208)",
+                                   Verdict::Bad);
   }
 }
 
@@ -107,8 +116,8 @@ void add_rotation(Rows& rows, const Summary& s) {
       risk_note(s, "bric_mps", "AIS3+", "serious brain injury");
   rows.add(kInjury, "DAMAGE", fmt::format("{:.2f}", r.DAMAGE.value), "").note =
       "Brain strain estimated from the head's angular acceleration.";
-  rows.hold_against_limit(r.DAMAGE.value, kDamageLow, "0.42 – 0.47 (Euro NCAP TB 035 band)",
-                          r.DAMAGE.value > kDamageHigh ? Verdict::Bad : Verdict::Attention);
+  rows.hold_against_injury_limit(r.DAMAGE.value, kDamageLow, "0.42 – 0.47 (Euro NCAP TB 035 band)",
+                                 r.DAMAGE.value > kDamageHigh ? Verdict::Bad : Verdict::Attention);
 }
 
 void add_injury(Rows& rows, const Summary& s) {
@@ -169,6 +178,7 @@ void add_quality(Rows& rows, const Summary& s) {
   }
   VerdictRow& record = rows.add(kQuality, "Record", s.is_complete ? "complete" : "incomplete", "");
   record.status = s.is_complete ? Verdict::Good : Verdict::Bad;
+  record.reading = s.is_complete ? "nothing missing" : "ended early";
   record.note = s.is_complete ? fmt::format("Every one of {} messages is in the log.", s.messages)
                               : s.outcome;
   rows.add(kQuality, "Computing time", fmt::format("{:.0f}", s.timing.wall), "s").note =

@@ -99,7 +99,7 @@ std::string brain_map_html(const StrainMap& map) {
   const double full_scale = std::max(0.05, std::ceil(largest * 20.0) / 20.0);
   std::string scale;
   for (int i = 0; i <= 4; ++i) {
-    scale += fmt::format("<i style='background:{};width:2.2em'></i>{:.2g} ",
+    scale += fmt::format("<span><i style='background:{};width:2.2em'></i>{:.2g}</span> ",
                          css_colour(strain_colour(0.25 * i)), 0.25 * i * full_scale);
   }
   return fmt::format(

@@ -52,7 +52,7 @@ Reading reading(Verdict verdict) {
     case Verdict::Info:
       break;
   }
-  return {"info", "·", "for information"};
+  return {"info", "–", "no limit"};
 }
 
 data verdict_groups(const std::vector<VerdictRow>& rows) {
@@ -73,7 +73,7 @@ data verdict_groups(const std::vector<VerdictRow>& rows) {
       line.set("band", row.band);
       line.set("status", read.style);
       line.set("symbol", read.symbol);
-      line.set("reading", read.text);
+      line.set("reading", row.reading.empty() ? read.text : row.reading);
       set_text(line, "note", row.note);
       lines.push_back(line);
     }
@@ -298,6 +298,7 @@ std::string render_report(const ReportInput& input) {
   page.set("chart_groups", chart_groups(groups));
   page.set("has_stills", data(!input.scene.empty()));
   page.set("has_scene", data(!input.scene.empty()));
+  page.set("has_surface", data(input.scene.head.has_value()));
   if (!input.scene.empty()) {
     page.set("still_views",
              still_views(input.scene, input.still_times.empty() ? default_still_times(input.scene)

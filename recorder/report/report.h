@@ -43,7 +43,8 @@ struct VerdictRow {
   std::string unit;
   std::string band;  ///< what it is held against, with its source: "105–135 ms (estimate)"
   Verdict status = Verdict::Info;
-  std::string note;  ///< one sentence for a reader new to the field
+  std::string note = {};     ///< one sentence for a reader new to the field
+  std::string reading = {};  ///< word beside the symbol; empty: by status
 };
 
 struct ReportTable {

@@ -41,6 +41,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"HTTPLIB_INCLUDE_DIR", "libcpp-httplib-dev"},
     {"NPM", ""},
     {"CHROMIUM", ""},
+    {"NODE", ""},
     {"CCACHE", ""}};
 
 std::set<std::string> listed_packages() {

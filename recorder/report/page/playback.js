@@ -12,6 +12,7 @@ function hasWebGl() {
 
 export function startPlayback(data, host) {
   if (!hasWebGl()) {
+    host.dataset.fault = 'webgl';
     host.textContent = 'This browser has no WebGL 2; the pictures above show the same run.';
     return;
   }
@@ -26,7 +27,7 @@ export function startPlayback(data, host) {
   const orbit = new OrbitControls(camera, canvas);
   let time = stage.begin;
   let isPlaying = false;
-  let last = 0;
+  let last = null;
 
   const draw = () => {
     stage.place(time);
@@ -68,7 +69,8 @@ export function startPlayback(data, host) {
   };
   const step = (now) => {
     if (!isPlaying) return;
-    const next = time + 1e-3 * Math.min(100, now - last) * Number(part('speed').value);
+    const passed = last === null ? 0 : Math.min(100, now - last);  // ms
+    const next = time + 1e-3 * passed * Number(part('speed').value);
     last = now;
     show(next > stage.end ? stage.begin : next);
     requestAnimationFrame(step);
@@ -76,7 +78,7 @@ export function startPlayback(data, host) {
   const play = (want) => {
     isPlaying = want;
     part('play').textContent = isPlaying ? 'Pause' : 'Play';
-    last = performance.now();
+    last = null;
     if (isPlaying) requestAnimationFrame(step);
   };
 
@@ -90,5 +92,4 @@ export function startPlayback(data, host) {
   new ResizeObserver(resize).observe(canvas);
   resize();
   look('oblique');
-  if (location.hash === '#play') play(true);
 }

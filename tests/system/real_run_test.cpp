@@ -1,0 +1,151 @@
+// The four programs as the user has them, on short runs of the first test scenario.
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "tests/system/launched.h"
+
+namespace crosswalk::system_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr double kLong = 300;  // s; far beyond what anything here takes
+
+const fs::path kPrograms = fs::path(CW_BINARY_DIR) / "bin";
+const fs::path kScenarios = fs::path(CW_SOURCE_DIR) / "scenarios/tests";
+
+/// Everything below the comment lines, which name the scenario.
+std::string channels_of(const fs::path& run) { return text_of(run / "channels.csv"); }
+
+class RealRun : public testing::Test {
+ protected:
+  Launched call(const std::string& program, std::vector<std::string> arguments,
+                const std::string& name) {
+    return Launched(kPrograms / program, std::move(arguments), folder_.path() / (name + ".txt"));
+  }
+  Launched run(const std::string& name, std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"run", (kScenarios / "v2370.toml").string(), "--out",
+                                          out(name).string()};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return call("crosswalk", arguments, name);
+  }
+  /// Runs to the end and expects success.
+  void complete(const std::string& name, std::vector<std::string> options) {
+    Launched launched = run(name, std::move(options));
+    const auto status = launched.wait(kLong);
+    ASSERT_TRUE(status) << "still running:\n" << launched.output();
+    ASSERT_TRUE(status->is_success()) << launched.output();
+    EXPECT_THAT(launched.output(), HasSubstr("results: " + out(name).string()));
+    for (const char* file : {"scenario.toml", "provenance.json", "signals.lcmlog", "channels.csv",
+                             "summary.json", "summary.txt", "logs/coupler.log"})
+      EXPECT_TRUE(fs::exists(out(name) / file)) << file;
+  }
+  fs::path out(const std::string& name) const { return folder_.path() / name; }
+  std::string provenance(const std::string& name, const std::string& key) const {
+    const std::string text = text_of(out(name) / "provenance.json");
+    const std::size_t begin = text.find("\"" + key + "\": \"") + key.size() + 5;
+    return text.substr(begin, text.find('"', begin) - begin);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(RealRun, MultibodyRunsAreBitIdentical) {
+  complete("a", {"--mode", "multibody", "--until-ms", "5"});
+  complete("b", {"--mode", "multibody", "--until-ms", "5"});
+  EXPECT_GT(channels_of(out("a")).size(), 10000u);
+  EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
+}
+
+TEST_F(RealRun, StockPlayerReplaysTheLogIntoAFreshRecorder) {
+  complete("a", {"--mode", "multibody", "--until-ms", "3"});
+  const std::string url = "udpm://239.255.76.67:19998?ttl=0&recv_buf_size=4194304";
+  Launched recorder = call("recorder",
+                           {"run", "--scenario", (out("a") / "scenario.toml").string(), "--run-id",
+                            provenance("a", "run_id"), "--url", url, "--out", out("b").string()},
+                           "recorder");
+  ASSERT_TRUE(wait_for(kLong, [&] { return recorder.has_said("[recorder] info"); }));
+  std::this_thread::sleep_for(std::chrono::seconds(1));  // its subscriptions' self-test
+  Launched player("/usr/bin/lcm-logplayer",
+                  {"--lcm-url=" + url, (out("a") / "signals.lcmlog").string()},
+                  folder_.path() / "player.txt");
+  const auto played = player.wait(kLong);
+  ASSERT_TRUE(played && played->is_success()) << player.output();
+  const auto status = recorder.wait(kLong);
+  ASSERT_TRUE(status) << recorder.output();
+  EXPECT_TRUE(status->is_success()) << recorder.output();
+  EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
+}
+
+TEST_F(RealRun, KilledNodeLeavesAReadableLog) {
+  Launched launched = run("a", {"--mode", "multibody", "--until-ms", "150"});
+  ASSERT_TRUE(wait_for(kLong, [&] { return launched.has_said("  10."); })) << launched.output();
+  kill(launched.child("mb_node"), SIGKILL);
+  const auto status = launched.wait(5);
+  ASSERT_TRUE(status) << "still running:\n" << launched.output();
+  EXPECT_EQ(status->code, 3) << launched.output();
+  EXPECT_THAT(launched.output(), HasSubstr("crosswalk: mb_node failed at 1"));
+  EXPECT_THAT(launched.output(), HasSubstr("kept in " + out("a").string() + ": signals.lcmlog"));
+  Launched analyze =
+      call("recorder", {"analyze", out("a").string(), "--out", out("b").string()}, "analyze");
+  const auto analyzed = analyze.wait(kLong);
+  ASSERT_TRUE(analyzed && analyzed->is_success()) << analyze.output();
+  EXPECT_GT(channels_of(out("b")).size(), 10000u);
+}
+
+TEST_F(RealRun, MistakesOfEveryProgramComeWithTheirPlaces) {
+  std::ifstream in(kScenarios / "v2370.toml");
+  const fs::path bad = folder_.path() / "bad.toml";
+  std::ofstream(bad) << "base = \"" << (kScenarios / "v2370.toml").string()
+                     << "\"\n[vehicle]\nspeed_m_s = 4000\n[coupling]\nsilent_after_m = 1\n[posture]\n"
+                        "right_hip_flexoin_deg = 5\n";
+  Launched check = call("crosswalk", {"check", bad.string()}, "check");
+  const auto status = check.wait(kLong);
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->code, 2);
+  EXPECT_THAT(check.output(), HasSubstr("bad.toml:3:13: vehicle.speed_m_s: expected"));
+  EXPECT_THAT(check.output(), HasSubstr("bad.toml:5:1: coupling.silent_after_m: expected a time"));
+  EXPECT_THAT(check.output(), HasSubstr("did you mean `right_hip_flexion_deg`?"));
+}
+
+TEST_F(RealRun, EveryScenarioHasNoMistakes) {
+  for (const auto& entry : fs::directory_iterator(kScenarios)) {
+    if (entry.path().extension() != ".toml") continue;
+    Launched check = call("crosswalk", {"check", entry.path().string()}, "check");
+    const auto status = check.wait(kLong);
+    ASSERT_TRUE(status);
+    EXPECT_TRUE(status->is_success()) << check.output();
+  }
+}
+
+class CoupledRun : public RealRun {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(kPrograms / "fe_node")) GTEST_SKIP() << "fe_node has no program yet";
+  }
+};
+
+TEST_F(CoupledRun, ShortOnesAreBitIdenticalWithOneAndTwoThreads) {
+  complete("a", {"--until-ms", "0.5", "--threads", "1"});
+  complete("b", {"--until-ms", "0.5", "--threads", "2"});
+  EXPECT_TRUE(fs::exists(out("a") / "logs/fe_node.log"));
+  EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
+}
+
+TEST_F(CoupledRun, KilledFeNodeEndsItByName) {
+  Launched launched = run("a", {"--until-ms", "100"});
+  ASSERT_TRUE(wait_for(kLong, [&] { return launched.has_said(" elapsed"); })) << launched.output();
+  kill(launched.child("fe_node"), SIGKILL);
+  const auto status = launched.wait(5);
+  ASSERT_TRUE(status) << "still running:\n" << launched.output();
+  EXPECT_EQ(status->code, 3) << launched.output();
+  EXPECT_THAT(launched.output(), HasSubstr("crosswalk: fe_node failed at "));
+}
+
+}  // namespace
+}  // namespace crosswalk::system_test

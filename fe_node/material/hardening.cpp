@@ -7,18 +7,11 @@ namespace crosswalk::fe {
 
 HardeningCurve::HardeningCurve(std::span<const double> plastic_strain,
                                std::span<const double> stress)
-    : strain_(plastic_strain.begin(), plastic_strain.end()), stress_(stress.begin(), stress.end()) {
-  if (strain_.empty() || strain_.size() != stress_.size())
-    throw std::invalid_argument("a hardening curve needs as many stresses as plastic strains");
-  if (strain_[0] != 0) throw std::invalid_argument("a hardening curve starts at plastic strain 0");
-  for (std::size_t k = 0; k < strain_.size(); ++k) {
-    if (!(stress_[k] > 0)) throw std::invalid_argument("yield stress must be positive");
-    if (k > 0 && !(strain_[k] > strain_[k - 1]))
-      throw std::invalid_argument("plastic strain of a hardening curve must rise");
-  }
-  for (std::size_t k = 0; k + 1 < strain_.size(); ++k)
-    slope_.push_back((stress_[k + 1] - stress_[k]) / (strain_[k + 1] - strain_[k]));
-  slope_.push_back(slope_.empty() ? 0 : std::max(slope_.back(), 0.0));
+    : curve_(plastic_strain, stress, 0) {
+  if (plastic_strain[0] != 0)
+    throw std::invalid_argument("a hardening curve starts at plastic strain 0");
+  for (double s : stress)
+    if (!(s > 0)) throw std::invalid_argument("yield stress must be positive");
 }
 
 HardeningCurve HardeningCurve::linear(double yield_stress, double modulus) {

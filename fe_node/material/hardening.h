@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "fe_node/material/lanes.h"
+#include "fe_node/material/lane_curve.h"
 
 namespace crosswalk::fe {
 
@@ -20,20 +20,13 @@ class HardeningCurve {
 
   template <class N>
   void evaluate(const N& plastic_strain, N& stress, N& slope) const {
-    stress = stress_[0] + slope_[0] * plastic_strain;
-    slope = constant<N>(slope_[0]);
-    for (std::size_t k = 1; k < strain_.size(); ++k) {
-      const N break_point = constant<N>(strain_[k]);
-      stress = where_less(plastic_strain, break_point, stress,
-                          N(stress_[k] + slope_[k] * (plastic_strain - break_point)));
-      slope = where_less(plastic_strain, break_point, slope, constant<N>(slope_[k]));
-    }
+    curve_.evaluate(plastic_strain, stress, slope);
   }
-  bool empty() const { return strain_.empty(); }
-  double initial_stress() const { return stress_[0]; }
+  bool empty() const { return curve_.empty(); }
+  double initial_stress() const { return curve_.y()[0]; }
 
  private:
-  std::vector<double> strain_, stress_, slope_;
+  LaneCurve curve_;
 };
 
 class YieldStress {

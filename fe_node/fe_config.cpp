@@ -1,6 +1,7 @@
 #include "fe_node/fe_config.h"
 
 #include "common/units.h"
+#include "fe_node/generate/generate_config.h"
 
 namespace crosswalk::fe {
 namespace {
@@ -17,12 +18,6 @@ generate::Fidelity fidelity_of(Fidelity fidelity) {
   return generate::Fidelity::Coarse;
 }
 
-generate::MassPreset mass_preset(const std::string& name) {
-  if (name == "untrimmed") return generate::MassPreset::Untrimmed;
-  if (name == "seed_a1") return generate::MassPreset::SeedA1;
-  return generate::MassPreset::Literature;
-}
-
 HeadNeckConfig read_head_neck(ConfigTable table, const Anthropometry& a, Fidelity fidelity) {
   HeadNeckConfig config;
   const std::string deck = table.text_or(
@@ -30,16 +25,8 @@ HeadNeckConfig read_head_neck(ConfigTable table, const Anthropometry& a, Fidelit
       "`generate`: head and neck are made from the subject's measures; else the path of a keyword "
       "deck.");
   config.is_generated = deck == "generate";
-  config.spec.fidelity = fidelity_of(fidelity);
-  config.spec.head = {a.head_length, a.head_breadth, a.head_to_chin_height};
-  config.spec.neck_circumference = a.neck_circumference;
-  config.spec.stature = a.standing_height;
-  config.spec.mass.preset =
-      mass_preset(table.choice_or("mass", {"literature", "seed_a1", "untrimmed"}, "literature",
-                                  "Mass properties the generated head is trimmed to."));
-  config.spec.activation =
-      table.quantity_or("muscle_activation", Dimension::None, {0, 1}, 0.0,
-                        "Activation of all neck muscles of the generated model; 0: passive.");
+  if (config.is_generated)
+    config.spec = generate::read_head_neck_spec(table, a, fidelity_of(fidelity));
   if (!config.is_generated) {
     config.deck = table.file("deck", "Path of a keyword deck, from the scenario's folder.");
     const std::string units = table.text_or(

@@ -30,8 +30,10 @@ void check(ConfigTable& table, std::string_view what, double value, double min, 
 
 }  // namespace
 
-HeadNeckSpec read_head_neck(ConfigTable table, const Anthropometry& subject) {
+HeadNeckSpec read_head_neck_spec(ConfigTable table, const Anthropometry& subject,
+                                 Fidelity fidelity) {
   HeadNeckSpec spec;
+  spec.fidelity = fidelity;
   spec.head = {subject.head_length, subject.head_breadth, subject.head_to_chin_height};
   spec.neck_circumference = subject.neck_circumference;
   spec.stature = subject.standing_height;
@@ -39,29 +41,26 @@ HeadNeckSpec read_head_neck(ConfigTable table, const Anthropometry& subject) {
   check(table, "head breadth", spec.head.breadth, 0.135, 0.175);
   check(table, "head to chin height", spec.head.chin_height, 0.185, 0.255);
   check(table, "neck circumference", spec.neck_circumference, 0.300, 0.480);
-  spec.fidelity = chosen<Fidelity>(
-      table, "fidelity",
-      {{"coarse", Fidelity::Coarse}, {"medium", Fidelity::Medium}, {"fine", Fidelity::Fine}},
-      "mesh size of the generated head and neck");
   spec.mass.preset = chosen<MassPreset>(table, "mass",
                                         {{"literature", MassPreset::Literature},
                                          {"seed_a1", MassPreset::SeedA1},
                                          {"measured", MassPreset::Measured},
                                          {"untrimmed", MassPreset::Untrimmed}},
-                                        "what the head's mass and moments are trimmed to");
+                                        "Mass properties the generated head is trimmed to.");
   if (spec.mass.preset == MassPreset::Measured) {
     spec.mass.head_mass =
-        table.quantity("head_mass", Dimension::Mass, {2.0, 8.0}, "of the subject's head");
+        table.quantity("head_mass", Dimension::Mass, {2.0, 8.0}, "Mass of the subject's head.");
     const std::vector<double> moments =
         table.quantities("head_moments", Dimension::Inertia, 3,
-                         "about the head's centre: front-back, left-right, vertical axis");
+                         "Moments of inertia about the head's centre: axes forward, left, up.");
     if (moments.size() == 3) spec.mass.head_moments = {moments[0], moments[1], moments[2]};
   }
   spec.muscle_area_factor =
       table.quantity_or("muscle_area_factor", Dimension::None, {0.2, 3.0}, spec.muscle_area_factor,
-                        "on the muscle areas of an average female");
-  spec.activation = table.quantity_or("activation", Dimension::None, {0.0, 1.0}, spec.activation,
-                                      "of all neck muscles; 0 for cadavers");
+                        "Factor on the muscle areas of an average female.");
+  spec.activation =
+      table.quantity_or("muscle_activation", Dimension::None, {0.0, 1.0}, spec.activation,
+                        "Activation of all neck muscles of the generated model; 0: passive.");
   return spec;
 }
 
@@ -69,24 +68,26 @@ WindshieldSpec read_windshield(ConfigTable table) {
   WindshieldSpec spec;
   spec.kind = chosen<WindshieldKind>(
       table, "kind", {{"panel", WindshieldKind::Panel}, {"laminated", WindshieldKind::Laminated}},
-      "sheet of the test buck, or glass and PVB");
+      "Sheet of the test buck, or glass and PVB.");
   const auto length = [&](std::string_view name, Range range, double fallback,
                           std::string_view doc) {
     return table.quantity_or(name, Dimension::Length, range, fallback, doc);
   };
-  spec.cell = length("cell", {0.003, 0.1}, spec.cell, "element size");
-  spec.lower_x = length("lower_x", {}, spec.lower_x, "lower edge behind the foremost bumper point");
-  spec.lower_z = length("lower_z", {}, spec.lower_z, "lower edge above the ground");
-  spec.upper_x = length("upper_x", {}, spec.upper_x, "upper edge behind the foremost bumper point");
-  spec.upper_z = length("upper_z", {}, spec.upper_z, "upper edge above the ground");
-  spec.width = length("width", {0.3, 2.5}, spec.width, "width of the pane");
-  spec.sagitta = length("sagitta", {0, 0.2}, spec.sagitta, "bulge of the middle outwards");
+  spec.cell = length("cell", {0.003, 0.1}, spec.cell, "Element size.");
+  spec.lower_x =
+      length("lower_x", {}, spec.lower_x, "Lower edge behind the foremost bumper point.");
+  spec.lower_z = length("lower_z", {}, spec.lower_z, "Lower edge above the ground.");
+  spec.upper_x =
+      length("upper_x", {}, spec.upper_x, "Upper edge behind the foremost bumper point.");
+  spec.upper_z = length("upper_z", {}, spec.upper_z, "Upper edge above the ground.");
+  spec.width = length("width", {0.3, 2.5}, spec.width, "Width of the pane.");
+  spec.sagitta = length("sagitta", {0, 0.2}, spec.sagitta, "Bulge of the middle outwards.");
   spec.panel_thickness =
-      length("panel_thickness", {2e-4, 0.01}, spec.panel_thickness, "of the panel");
+      length("panel_thickness", {2e-4, 0.01}, spec.panel_thickness, "Thickness of the panel.");
   spec.glass_thickness =
-      length("glass_thickness", {1e-3, 0.01}, spec.glass_thickness, "of each glass ply");
+      length("glass_thickness", {1e-3, 0.01}, spec.glass_thickness, "Thickness of each glass ply.");
   spec.pvb_thickness =
-      length("pvb_thickness", {2e-4, 5e-3}, spec.pvb_thickness, "of the interlayer");
+      length("pvb_thickness", {2e-4, 5e-3}, spec.pvb_thickness, "Thickness of the interlayer.");
   return spec;
 }
 

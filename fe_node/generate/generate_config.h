@@ -8,8 +8,10 @@
 
 namespace crosswalk::fe::generate {
 
-/// Keys of [head_neck] with the subject's measures. Problems are recorded in the document.
-HeadNeckSpec read_head_neck(ConfigTable head_neck, const Anthropometry& subject);
+/// Keys of [head_neck] for a generated model, with the subject's measures. Problems are recorded in
+/// the document; the fidelity is that of the run.
+HeadNeckSpec read_head_neck_spec(ConfigTable head_neck, const Anthropometry& subject,
+                                 Fidelity fidelity);
 /// Keys of [windshield].
 WindshieldSpec read_windshield(ConfigTable windshield);
 

@@ -17,12 +17,12 @@ Anthropometry man() {
   return subject;
 }
 
-TEST(GenerateConfig, DefaultsAreCoarseLiteraturePassive) {
+TEST(GenerateConfig, DefaultsAreLiteraturePassive) {
   ConfigDocument document = ConfigDocument::from_text("[head_neck]\n[windshield]\n", "test.toml");
-  const HeadNeckSpec spec = read_head_neck(document.root().table("head_neck", ""), man());
+  const HeadNeckSpec spec =
+      read_head_neck_spec(document.root().table("head_neck", ""), man(), Fidelity::Medium);
   const WindshieldSpec pane = read_windshield(document.root().table("windshield", ""));
   document.finish();
-  EXPECT_EQ(spec.fidelity, Fidelity::Coarse);
   EXPECT_EQ(spec.mass.preset, MassPreset::Literature);
   EXPECT_EQ(spec.activation, 0);
   EXPECT_EQ(spec.head.length, 0.185);
@@ -31,11 +31,12 @@ TEST(GenerateConfig, DefaultsAreCoarseLiteraturePassive) {
 
 TEST(GenerateConfig, MeasuredHeadInUserUnits) {
   ConfigDocument document = ConfigDocument::from_text(
-      "[head_neck]\nfidelity = \"medium\"\nmass = \"measured\"\nhead_mass_g = 4100\n"
+      "[head_neck]\nmass = \"measured\"\nhead_mass_g = 4100\n"
       "head_moments_kg_m2 = [0.018, 0.020, 0.014]\n[windshield]\nkind = \"laminated\"\ncell_mm = "
       "5\n",
       "test.toml");
-  const HeadNeckSpec spec = read_head_neck(document.root().table("head_neck", ""), man());
+  const HeadNeckSpec spec =
+      read_head_neck_spec(document.root().table("head_neck", ""), man(), Fidelity::Medium);
   const WindshieldSpec pane = read_windshield(document.root().table("windshield", ""));
   document.finish();
   EXPECT_EQ(spec.fidelity, Fidelity::Medium);
@@ -49,7 +50,7 @@ TEST(GenerateConfig, SubjectOutsideTheRangeIsReported) {
   ConfigDocument document = ConfigDocument::from_text("[head_neck]\n", "test.toml");
   Anthropometry child = man();
   child.head_length = 0.15;
-  read_head_neck(document.root().table("head_neck", ""), child);
+  read_head_neck_spec(document.root().table("head_neck", ""), child, Fidelity::Coarse);
   try {
     document.finish();
     FAIL();

@@ -1,0 +1,74 @@
+// The generated head and neck in the solver: at rest it stays at rest, and it falls freely with
+// sound energies. Coarse mesh, a fraction of a millisecond: the model is the subject, not the
+// solver.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "common/units.h"
+#include "fe_node/generate/head_neck.h"
+#include "fe_node/model_builder/model_builder.h"
+#include "fe_node/solver.h"
+
+namespace crosswalk::fe {
+namespace {
+
+BuiltModel coarse(bool blocks_are_held) {
+  BuildOptions options;
+  if (blocks_are_held)
+    options.driven_parts = {"block_torso_up", "block_clavicle_l", "block_clavicle_r"};
+  options.mass_scaling_step = 0;
+  return build_model(generate::generate_head_neck({}), options);
+}
+
+void run(const Model& model, State& state, double end) {
+  Scratch scratch(model, 1);
+  const double dt = 0.85 * initial_stable_step(model);
+  while (state.time < end) advance_step(model, state, scratch, dt);
+}
+
+TEST(GeneratedModel, StableStepIsAboutOneMicrosecond) {
+  BuiltModel built = coarse(true);
+  built.model.finish();
+  EXPECT_GT(initial_stable_step(built.model), 0.9e-6);
+  for (const double added : built.model.added_mass) EXPECT_EQ(added, 0);
+}
+
+TEST(GeneratedModel, StaysAtRestWithoutLoad) {
+  BuiltModel built = coarse(true);
+  built.model.finish();
+  State state = initial_state(built.model);
+  run(built.model, state, 0.3e-3);
+  // Coordinates are rounded on the deck's cards; nothing else may load the model.
+  EXPECT_LT(state.energies.kinetic, 1e-12);
+  EXPECT_LT(state.energies.internal, 1e-8);
+}
+
+TEST(GeneratedModel, FallsFreelyWithoutStrain) {
+  BuiltModel built = coarse(false);
+  built.model.settings.gravity = {0, 0, -kStandardGravity};
+  built.model.finish();
+  State state = initial_state(built.model);
+  run(built.model, state, 0.5e-3);
+  const double mass = built.model.total_mass();
+  const double speed = kStandardGravity * state.time;
+  EXPECT_NEAR(state.energies.kinetic / (0.5 * mass * speed * speed), 1, 0.01);
+  EXPECT_LT(state.energies.internal + state.energies.hourglass(), 1e-3 * state.energies.kinetic);
+}
+
+TEST(GeneratedModel, ShakenTorsoKeepsTheBooks) {
+  BuiltModel built = coarse(true);
+  built.model.finish();
+  State state = initial_state(built.model);
+  for (std::size_t b = 0; b < built.model.bodies.size(); ++b)
+    if (built.model.bodies[b].role == BodyRole::Driven) state.bodies[b].V_WB.v.y() = 5;
+  run(built.model, state, 1e-3);
+  const Energies& e = state.energies;
+  EXPECT_GT(e.interface_work, 0.1);
+  EXPECT_LT(std::abs(e.balance_error()), 0.02);
+  EXPECT_LT(e.hourglass(), 0.1 * e.internal);
+}
+
+}  // namespace
+}  // namespace crosswalk::fe

@@ -25,7 +25,7 @@ struct LigamentData {
 constexpr LigamentData kAll{"ALL", 250, 6}, kPll{"PLL", 250, 4.5}, kFlavum{"LF", 130, 6},
     kCapsule{"CL", 200, 7}, kInterspinous{"ISL", 60, 6}, kAaom{"AAOM", 232, 10},
     kPaom{"PAOM", 83, 8}, kAaam{"AAAM", 263, 10}, kPaam{"PAAM", 111, 9},
-    kCapsuleC0C1{"CL_C0C1", 320, 10}, kCapsuleC1C2{"CL_C1C2", 314, 9, 1.5}, kAlar{"alar", 428, 6},
+    kCapsuleC0C1{"CL_C0C1", 320, 10}, kCapsuleC1C2{"CL_C1C2", 314, 9, 2.5}, kAlar{"alar", 428, 6},
     kApical{"apical", 200, 5}, kCruciform{"cruciform", 860, 6}, kTectorial{"tectorial", 76, 6};
 
 /// Elongation over that at failure, force over failure force [yoganandan2000] [E shape].
@@ -48,6 +48,11 @@ constexpr std::array<std::pair<double, double>, 13> kShape{{{-2, 0},
 constexpr std::array<std::pair<double, double>, 6> kCartilage{
     {{0.05, 0.42e6}, {0.1, 1.01e6}, {0.2, 3.06e6}, {0.3, 7.17e6}, {0.4, 15.4e6}, {0.5, 32.1e6}}};
 constexpr double kFacetGap = 0.4e-3, kCartilageThickness = 1e-3, kFacetArea = 100e-6;
+/// Gaps after which bone meets bone in the two pivot joints, m; set so that single joints turn
+/// about as far at 1 N m as in cadaver necks [panjabi2001] [E].
+constexpr double kCondyleSideGap = 1.2e-3, kCondyleFrontGap = 0.9e-3, kCondyleBackGap = 3.2e-3,
+                 kCondyleTwistGap = 1.6e-3;
+constexpr double kAtlasSideGap = 0.7e-3, kAtlasBackGap = 5.0e-3;
 constexpr double kFacetStrut = 16e-3;  ///< length; sliding by s lengthens it by s^2 / (2 length)
 
 /// Translational stiffness of one pivot strut, N/m; four meet, giving 0.6 to 2 MN/m, the order of
@@ -63,6 +68,7 @@ class Builder {
     for (int level = C2; level <= T1; ++level) add_level(static_cast<Level>(level));
     add_upper();
     add_pivots();
+    add_stops();
     for (int level = C2; level <= T1; ++level) add_facets(static_cast<Level>(level));
   }
 
@@ -203,22 +209,46 @@ class Builder {
       }
   }
 
+  /// A part of struts that push like cartilage once `gap` is closed.
+  int contact_part(const std::string& name, double gap, const std::string& source) {
+    const int id = part::kFacet + contacts_++;
+    CurveSpec curve{.id = id, .name = name, .points = {}};
+    for (auto point = kCartilage.rbegin(); point != kCartilage.rend(); ++point)
+      curve.points.emplace_back(-gap - point->first * kCartilageThickness,
+                                -point->second * kFacetArea);
+    curve.points.insert(curve.points.end(), {{-gap, 0}, {0, 0}, {1e-2, 0}});
+    add_part(id, name, curve, source, Grade::Estimate);
+    return id;
+  }
+
+  /// Struts whose upper end lies at the height of the pivot: those at its side do not feel flexion,
+  /// those before and behind it do not feel lateral bending.
+  void add_stops() {
+    const char* source = "gap set against joint ranges of Panjabi 2001";
+    const double x = kCondyleFrankfurtX, z = kCondyleFrankfurtZ;
+    int part = contact_part("condyle_side", kCondyleSideGap, source);
+    for (const double y : {-20.0, 20.0}) add_line(part, at(C1, 0, y, -5), at(C0, x, y, z));
+    add_line(contact_part("condyle_front", kCondyleFrontGap, source), at(C1, 10, 0, -5),
+             at(C0, x + 10, 0, z));
+    add_line(contact_part("condyle_back", kCondyleBackGap, source), at(C1, -10, 0, -5),
+             at(C0, x - 10, 0, z));
+    part = contact_part("condyle_twist", kCondyleTwistGap, source);
+    for (const double y : {-20.0, 20.0}) add_line(part, at(C1, -14, y, 7), at(C0, x, y, z));
+    part = contact_part("atlas_side", kAtlasSideGap, source);
+    for (const double y : {-17.0, 17.0}) add_line(part, at(C2, -2.4, y, 4), at(C1, 5, y, -4.5));
+    add_line(contact_part("atlas_back", kAtlasBackGap, source), at(C2, -33, 0, -6),
+             at(C1, -22, 0, -4.5));
+  }
+
   void add_facets(Level upper) {
-    if (facet_curve_ == 0) {
-      CurveSpec curve{.id = part::kFacet, .name = "facet cartilage", .points = {}};
-      for (auto point = kCartilage.rbegin(); point != kCartilage.rend(); ++point)
-        curve.points.emplace_back(-kFacetGap - point->first * kCartilageThickness,
-                                  -point->second * kFacetArea);
-      curve.points.insert(curve.points.end(), {{-kFacetGap, 0}, {0, 0}, {1e-2, 0}});
-      facet_curve_ = curve.id;
-      add_part(part::kFacet, "facets", curve, "cartilage curve of VIVA+, gap and area estimated",
-               Grade::Estimate);
-    }
+    if (facet_part_ == 0)
+      facet_part_ =
+          contact_part("facets", kFacetGap, "cartilage curve of VIVA+, gap and area estimated");
     const Level lower = static_cast<Level>(upper + 1);
     const Vec3 half = 0.5 * kFacetStrut * spine_.facet_normal(upper);
     for (const int side : {-1, 1}) {
       const Vec3 centre = spine_.facet_centre(upper, side);
-      add_line(part::kFacet, {lower, centre - half}, {upper, centre + half});
+      add_line(facet_part_, {lower, centre - half}, {upper, centre + half});
     }
   }
 
@@ -227,7 +257,8 @@ class Builder {
   double s_;
   Vec3 head_scale_;
   int ligaments_ = 0;
-  int facet_curve_ = 0;
+  int contacts_ = 0;
+  int facet_part_ = 0;
 };
 
 }  // namespace

@@ -86,17 +86,18 @@ void add_dens(MeshDraft& draft, const Spine& spine) {
   add_box(draft, body, {-r, -r, top}, {r, r, top + 0.0155 * spine.scale}, {1, 1, 2});
 }
 
-/// Disc modulus set [E]: one homogenised solid whose axial, shear and bending stiffness lie at
-/// those of isolated discs, 0.49 MN/m, 119 kN/m and 0.21 to 0.33 N m/deg [moroney1988].
+/// Disc moduli [E]: one homogenised solid, of the order of isolated discs in compression and shear
+/// (0.49 MN/m, 119 kN/m [moroney1988]), then lowered by a third until the ligamentous neck turned
+/// at 1 N m as far as cadaver necks do [panjabi2001].
 PartSpec disc_spec(int id, const std::string& name) {
   return {
       .id = id,
       .name = name,
       .density = 1100,
       .law =
-          mat::Viscoelastic{.bulk = 6.0e6, .shear_short = 2.6e6, .shear_long = 1.8e6, .decay = 20},
+          mat::Viscoelastic{.bulk = 3.2e6, .shear_short = 1.7e6, .shear_long = 1.1e6, .decay = 20},
       .section = SolidSection{},
-      .source = "homogenised disc, fitted to Moroney 1988 disc stiffness",
+      .source = "homogenised disc, set against Moroney 1988 and Panjabi 2001",
       .grade = Grade::Estimate};
 }
 

@@ -35,6 +35,32 @@ TEST(GeneratedModel, StableStepIsAboutOneMicrosecond) {
   for (const double added : built.model.added_mass) EXPECT_EQ(added, 0);
 }
 
+TEST(GeneratedModel, IsTheSameInOtherUnits) {
+  const auto built_in = [](UnitSystem units) {
+    generate::HeadNeckSpec spec;
+    spec.units = units;
+    BuiltModel built = build_model(generate::generate_head_neck(spec), {});
+    built.model.finish();
+    return built;
+  };
+  const BuiltModel first = built_in(UnitSystem::MmTonneS), other = built_in(UnitSystem::MmKgMs);
+  EXPECT_NEAR(other.model.total_mass() / first.model.total_mass(), 1, 1e-9);
+  EXPECT_NEAR(initial_stable_step(other.model) / initial_stable_step(first.model), 1, 1e-9);
+  ASSERT_EQ(first.model.mesh.node_count(), other.model.mesh.node_count());
+  State a = initial_state(first.model), b = initial_state(other.model);
+  // The same push on the head: springs, discs and strands must answer alike.
+  for (State* state : {&a, &b})
+    for (std::size_t body = 0; body < state->bodies.size(); ++body)
+      state->bodies[body].V_WB.v.x() = static_cast<double>(body);
+  Scratch scratch_a(first.model, 1), scratch_b(other.model, 1);
+  for (int step = 0; step < 50; ++step) {
+    advance_step(first.model, a, scratch_a, 0.9e-6);
+    advance_step(other.model, b, scratch_b, 0.9e-6);
+  }
+  EXPECT_GT(a.energies.internal, 1e-6);
+  EXPECT_NEAR(b.energies.internal / a.energies.internal, 1, 1e-6);
+}
+
 TEST(GeneratedModel, StaysAtRestWithoutLoad) {
   BuiltModel built = coarse(true);
   built.model.finish();

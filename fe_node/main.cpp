@@ -1,13 +1,32 @@
 // fe_node: the finite-element head and neck. `fe_node run --scenario FILE --run-id ID`
+#include <cstdlib>
+
 #include <omp.h>
+#include <unistd.h>
 
 #include "common/node_main.h"
 #include "common/solver_node.h"
+#include "fe_node/commands.h"
 #include "fe_node/fe_config.h"
 #include "fe_node/fe_node.h"
 
+namespace {
+
+/// Waiting threads of OpenMP spin for long by default, which starves the other processes of a
+/// coupled run and, on a busy machine, the solver's own threads. The runtime reads its settings
+/// before main(), hence the program starts itself once more with a short spin. A user's own setting
+/// is kept.
+void limit_spinning(char** argv) {
+  if (std::getenv("GOMP_SPINCOUNT") != nullptr || std::getenv("OMP_WAIT_POLICY") != nullptr) return;
+  setenv("GOMP_SPINCOUNT", "20000", 1);  // about 20 us
+  execv("/proc/self/exe", argv);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace crosswalk;
+  limit_spinning(argv);
   return node_main(
       argc, argv,
       {.name = "fe_node",
@@ -21,6 +40,6 @@ int main(int argc, char** argv) {
              fe::FeNode node(std::move(config), omp_get_max_threads(), context.directory.root());
              return run_fe_node(context, node);
            },
-       .check_file = {},
-       .commands = {}});
+       .check_file = fe::check_deck,
+       .commands = {fe::solve_command(), fe::bench_command()}});
 }

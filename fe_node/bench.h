@@ -1,0 +1,19 @@
+// Speed of the solver loop alone on generated workloads: element-steps per second, data rate, and
+// the share of the multiply-add rate measured just before on the same cores.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace crosswalk::fe {
+
+struct BenchRequest {
+  std::vector<std::string> workloads;  ///< of A20k A A500k B; empty: all
+  std::vector<int> threads;            ///< empty: 1 and all
+  bool json = false;
+};
+
+/// The table, or one JSON object.
+std::string run_bench(const BenchRequest& request);
+
+}  // namespace crosswalk::fe

@@ -1,0 +1,96 @@
+#include "fe_node/commands.h"
+
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <omp.h>
+
+#include "common/log.h"
+#include "fe_node/bench.h"
+#include "fe_node/deck/deck_report.h"
+#include "fe_node/deck/keyword_reader.h"
+#include "fe_node/solve.h"
+
+namespace crosswalk::fe {
+namespace {
+
+std::string energy_table(const SolveResult& r) {
+  const Energies& e = r.energies;
+  const double hourglass = e.internal > 0 ? 100 * e.hourglass() / e.internal : 0.0;
+  return fmt::format(
+      "end              {:.6g} ms after {} steps\n"
+      "kinetic energy   {:.6g} J\n"
+      "internal energy  {:.6g} J\n"
+      "hourglass        {:.6g} J ({:.2f} % of internal)\n"
+      "bulk viscosity   {:.6g} J\n"
+      "damping          {:.6g} J\n"
+      "contact          {:.6g} J\n"
+      "external work    {:.6g} J\n"
+      "energy balance   {:+.3f} %\n"
+      "added mass       {:.4g} kg of {:.6g} kg\n",
+      1e3 * r.time, r.steps, e.kinetic, e.internal, e.hourglass(), hourglass, e.viscous, e.damping,
+      e.contact(), e.external_work + e.interface_work, 100 * e.balance_error(), r.added_mass,
+      r.total_mass);
+}
+
+}  // namespace
+
+NodeCommand solve_command() {
+  return {"solve", "run a keyword deck alone", [](CLI::App& options) {
+            auto request = std::make_shared<SolveRequest>();
+            auto end_ms = std::make_shared<double>(0);
+            auto units = std::make_shared<std::string>();
+            request->folder = "solve";
+            options.add_option("deck", request->deck, "Keyword deck")->required();
+            options.add_option("--out", request->folder, "Folder of the results")
+                ->capture_default_str();
+            options.add_option("--threads", request->threads, "Threads; 0: all")
+                ->check(CLI::Range(0, 256));
+            options.add_option("--end-ms", *end_ms, "End time, ms; as the deck says by default")
+                ->check(CLI::PositiveNumber);
+            options.add_option("--units", *units,
+                               "Unit system, such as mm-tonne-s, if the deck states none");
+            options.add_flag("--accept-missing", request->accept_missing,
+                             "Run although keywords that change the physics are not understood");
+            options.add_option("--restart", request->restart, "restart.bin to go on from");
+            return [request, end_ms, units] {
+              request->end_time = 1e-3 * *end_ms;
+              if (request->threads == 0) request->threads = omp_get_max_threads();
+              if (!units->empty()) {
+                request->units = unit_system_from(*units);
+                if (request->units == UnitSystem::Unknown)
+                  throw UserError(
+                      Problem{{}, "--units", "m-kg-s, mm-tonne-s, mm-kg-ms, ...", *units, {}});
+              }
+              const SolveResult result = solve_deck(*request);
+              std::cout << energy_table(result);
+              return ExitCode::Done;
+            };
+          }};
+}
+
+NodeCommand bench_command() {
+  return {"bench", "speed of the solver on generated workloads", [](CLI::App& options) {
+            auto request = std::make_shared<BenchRequest>();
+            options.add_option("workloads", request->workloads,
+                               "Any of A20k A A500k B; all by default");
+            options.add_option("--threads", request->threads, "Threads; 1 and all by default");
+            options.add_flag("--json", request->json, "One JSON object instead of a table");
+            return [request] {
+              std::cout << run_bench(*request);
+              return ExitCode::Done;
+            };
+          }};
+}
+
+void check_deck(const std::filesystem::path& file) {
+  const DeckReport report = report_deck(file);
+  std::cout << report.text;
+  if (!report.is_sound)
+    throw UserError(
+        Problem{{file.string()}, "deck", "one that can be run as it is", "the above", {}});
+}
+
+}  // namespace crosswalk::fe

@@ -1,0 +1,157 @@
+#include "fe_node/solve.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "common/error.h"
+#include "common/interrupt.h"
+#include "common/log.h"
+#include "fe_node/deck/keyword_reader.h"
+#include "fe_node/model_builder/model_builder.h"
+#include "fe_node/output/field_writer.h"
+#include "fe_node/output/state_bytes.h"
+#include "fe_node/solver.h"
+
+namespace crosswalk::fe {
+namespace {
+
+constexpr int kDefaultFrames = 20;     ///< field files of a deck that asks for none
+constexpr int kDefaultHistory = 1000;  ///< history lines likewise
+constexpr int kProgressLines = 10;
+
+class EnergyHistory {
+ public:
+  explicit EnergyHistory(const std::filesystem::path& path) : file_(path) {
+    file_ << "time_s,step_s,kinetic_J,internal_J,hourglass_J,viscous_J,damping_J,contact_J,"
+             "external_work_J,balance_error_percent\n";
+  }
+  void add(const State& state) {
+    const Energies& e = state.energies;
+    fmt::print(file_, "{:.9g},{:.6g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.4f}\n",
+               state.time, state.last_dt, e.kinetic, e.internal, e.hourglass(), e.viscous,
+               e.damping, e.contact(), e.external_work + e.interface_work, 100 * e.balance_error());
+  }
+
+ private:
+  std::ofstream file_;
+};
+
+void write_restart(const State& state, const std::filesystem::path& path) {
+  ByteWriter writer;
+  write_state(state, writer);
+  const std::vector<std::byte> bytes = writer.take();
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+  if (!file.flush())
+    throw UserError(Problem{{path.string()}, "restart file", "room to write", "none", {}});
+}
+
+void read_restart(const std::filesystem::path& path, State& state) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file)
+    throw UserError(Problem{{path.string()}, "restart file", "a readable file", "none", {}});
+  std::vector<std::byte> bytes(static_cast<std::size_t>(file.tellg()));
+  file.seekg(0);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  ByteReader reader(bytes);
+  read_state(reader, state);
+}
+
+/// True each time `time` passes another multiple of `interval`.
+class Clock {
+ public:
+  Clock(double interval, double start) : interval_(interval), next_(start) {}
+  bool strikes(double time) {
+    if (interval_ <= 0 || time < next_ - 1e-9 * interval_) return false;
+    while (next_ <= time + 1e-9 * interval_) next_ += interval_;
+    return true;
+  }
+
+ private:
+  double interval_, next_;
+};
+
+void describe(const BuiltModel& built, const SolveRequest& request, double step) {
+  const Model& model = built.model;
+  double added = 0;
+  for (double m : model.added_mass) added += m;
+  log_info("{}: {} nodes, {} parts, mass {:.6g} kg, added mass {:.4g} kg, stable step {:.4g} us",
+           request.deck.string(), model.mesh.node_count(), model.mesh.parts.size(),
+           model.total_mass(), added, 1e6 * step);
+  for (std::size_t p = 0; p < model.mesh.parts.size(); ++p)
+    if (model.added_mass[p] > 0)
+      log_info("added mass of part {} '{}': {:.4g} kg", model.mesh.parts[p].id.value,
+               model.mesh.parts[p].name, model.added_mass[p]);
+  for (const std::string& note : built.notes) log_warning("{}", note);
+}
+
+void write_last_sound_frame(const Model& model, const State& state,
+                            const std::filesystem::path& folder) {
+  State sound = state;
+  for (NodeRecord& node : sound.nodes)
+    node.set_position(node.position() - sound.last_dt * node.velocity());
+  sound.time -= sound.last_dt;
+  FieldWriter writer(model, folder / "last_sound");
+  log_error("last sound frame: {}", (folder / "last_sound" / writer.write(sound)).string());
+}
+
+}  // namespace
+
+SolveResult solve_deck(const SolveRequest& request) {
+  const Deck deck =
+      require_runnable(read_deck(request.deck),
+                       request.accept_missing ? MissingPolicy::Accept : MissingPolicy::Refuse);
+  BuildOptions options;
+  options.units = request.units;
+  BuiltModel built = build_model(deck, options);
+  finish_model(built);
+  const Model& model = built.model;
+  const double end = request.end_time > 0 ? request.end_time : built.end_time;
+  if (!(end > 0))
+    throw UserError(Problem{
+        {request.deck.string()}, "end time", "*CONTROL_TERMINATION or --end-ms", "neither", {}});
+  State state = initial_state(model);
+  if (!request.restart.empty()) read_restart(request.restart, state);
+  Scratch scratch(model, request.threads);
+  describe(built, request, initial_stable_step(model));
+
+  FieldWriter fields(model, request.folder / "fields");
+  EnergyHistory history(request.folder / "energies.csv");
+  Clock field_clock(built.field_interval > 0 ? built.field_interval : end / kDefaultFrames,
+                    state.time);
+  Clock history_clock(built.history_interval > 0 ? built.history_interval : end / kDefaultHistory,
+                      state.time);
+  Clock progress_clock(end / kProgressLines, state.time);
+  while (state.time < end * (1 - 1e-12) && !interrupt_flag()) {
+    set_log_time(state.time);
+    if (field_clock.strikes(state.time)) fields.write(state);
+    StepReport report;
+    try {
+      report = compute_forces(model, state, scratch);
+    } catch (const NumericalError&) {
+      write_last_sound_frame(model, state, request.folder);
+      throw;
+    }
+    const double stable = model.settings.step_scale * report.stable_step;
+    const double dt = std::min(stable, end - state.time);
+    for (std::size_t b = 0; b < model.bodies.size(); ++b)
+      scratch.body_command[b] = state.bodies[b].V_WB;
+    move(model, state, scratch, dt);
+    if (history_clock.strikes(state.time)) history.add(state);
+    if (progress_clock.strikes(state.time))
+      log_info("{:3.0f} %, step {:.4g} us, energy balance {:+.3f} %", 100 * state.time / end,
+               1e6 * dt, 100 * state.energies.balance_error());
+  }
+  fields.write(state);
+  history.add(state);
+  write_restart(state, request.folder / "restart.bin");
+  SolveResult result{state.time, state.step, state.energies, 0, model.total_mass()};
+  for (double m : model.added_mass) result.added_mass += m;
+  return result;
+}
+
+}  // namespace crosswalk::fe

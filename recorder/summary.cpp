@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "recorder/signal.h"
-
 namespace crosswalk::recording {
 
 namespace {
@@ -127,42 +125,6 @@ std::string outcome_of(const RunRecord& record) {
   return "complete";
 }
 
-SignalRating rate_signal(const RatedSignal& signal, const ReferenceCurve& curve,
-                         const Channel& channel) {
-  SignalRating rating{signal, curve.source, {}, {}, {}};
-  Series simulation;
-  for (std::size_t i = 0; i < channel.samples.size(); ++i) {
-    if (!std::isfinite(channel.samples[i])) continue;
-    simulation.t.push_back(channel.time(i));
-    simulation.y.push_back(channel.samples[i]);
-  }
-  try {
-    if (curve.unit != channel.unit) {
-      throw SignalError(SignalFault::BadParameter,
-                        fmt::format("curve in {}, channel in {}", curve.unit, channel.unit));
-    }
-    rating.cora = cora(curve.series, simulation, {}, {});
-    Series reference = curve.series;
-    align_grids(reference, simulation);
-    rating.iso = iso18571(reference, simulation, {});
-  } catch (const SignalError& error) {
-    rating.fault = error.what();
-  }
-  return rating;
-}
-
-void rate(Summary& s, const RunChannels& run, const ReferenceData& reference) {
-  for (const RatedSignal& signal : rating_set({})) {
-    for (const ReferenceCurve& curve : reference.curves) {
-      std::string name = curve.channel;
-      if (name.starts_with("head_cog_relative_")) name.erase(9, 9);
-      if (name != signal.channel) continue;
-      if (const Channel* channel = run.find(curve.channel))
-        s.ratings.push_back(rate_signal(signal, curve, *channel));
-    }
-  }
-}
-
 void add_statements(Summary& s, const std::optional<ReferenceData>& reference) {
   s.statements.push_back(
       "Car profile and contact curves, body joints and tissue laws are engineering estimates where "
@@ -223,7 +185,7 @@ Summary summarize(const RunRecord& record, const RunChannels& channels,
     }
     s.published = reference->scores;
     s.published_source = reference->scores_source;
-    rate(s, channels, *reference);
+    s.ratings = rate_against_curves(rating_set({}), channels.channels, reference->curves);
   }
   add_statements(s, reference);
   return s;

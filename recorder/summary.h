@@ -10,8 +10,7 @@
 
 #include "recorder/extract.h"
 #include "recorder/reference.h"
-#include "recorder/scoring/cora.h"
-#include "recorder/scoring/iso18571.h"
+#include "recorder/run_rating.h"
 
 namespace crosswalk::recording {
 
@@ -42,15 +41,6 @@ struct RegionPeak {
 
 struct Timing {
   double wall = 0, windows = 0, mb = 0, fe = 0;  ///< s; differ from run to run
-};
-
-/// One signal against its reference.
-struct SignalRating {
-  RatedSignal signal;
-  std::string reference;
-  std::optional<CoraResult> cora;
-  std::optional<Iso18571Result> iso;
-  std::string fault;  ///< why there is no rating
 };
 
 struct BandVerdict {

@@ -87,18 +87,6 @@ ordered_json tissue_block(const Summary& s) {
   return out;
 }
 
-ordered_json rating_block(const Summary& s) {
-  ordered_json out = ordered_json::array();
-  for (const SignalRating& r : s.ratings) {
-    ordered_json entry = {{"channel", r.signal.channel}, {"reference", r.reference}};
-    if (r.cora) entry["cora"] = to_json(*r.cora);
-    if (r.iso) entry["iso18571"] = to_json(*r.iso);
-    if (!r.fault.empty()) entry["fault"] = r.fault;
-    out.push_back(entry);
-  }
-  return out;
-}
-
 ordered_json band_block(const Summary& s) {
   ordered_json out = ordered_json::array();
   for (const BandVerdict& v : s.bands) {
@@ -130,7 +118,7 @@ ordered_json to_json(const Summary& s) {
   out["tissue"] = tissue_block(s);
   out["quality"] = quality_block(s);
   out["bands"] = band_block(s);
-  out["ratings"] = rating_block(s);
+  out["ratings"] = to_json(s.ratings);
   ordered_json published = ordered_json::array();
   for (const PublishedScore& p : s.published) {
     published.push_back({{"signal", p.signal}, {"model", p.model}, {"C", p.score}});

@@ -36,8 +36,8 @@ Action define_rate(CLI::App& app) {
   app.add_option("files", r.files,
                  "PAIR.csv (columns t,ref,sim[,sigma]) or REF.csv SIM.csv (columns t,value)")
       ->expected(0, 2);
-  app.add_option("--run", r.run, "rate this run's channels ...");
-  app.add_option("--reference-run", r.reference_run, "... against this run's");
+  app.add_option("--run", r.run, "rate this run: against its test's curves, or");
+  app.add_option("--reference-run", r.reference_run, "against the channels of this one");
   app.add_option("--parameters", r.parameters,
                  "JSON object with parameters under the method's own names");
   app.add_option("--set", r.set,
@@ -46,9 +46,9 @@ Action define_rate(CLI::App& app) {
   return [parsed] {
     return reported(parsed->form(), [&parsed] {
       const RateRequest& request = parsed->request;
-      const bool has_runs = !request.run.empty() && !request.reference_run.empty();
-      if (has_runs == !request.files.empty()) {
-        wrong_usage("rate", "PAIR.csv, or REF.csv SIM.csv, or --run A --reference-run B");
+      const bool is_lone_reference = request.run.empty() && !request.reference_run.empty();
+      if (is_lone_reference || request.run.empty() == request.files.empty()) {
+        wrong_usage("rate", "PAIR.csv, or REF.csv SIM.csv, or --run A [--reference-run B]");
       }
       return rate(request, parsed->form());
     });
@@ -76,6 +76,18 @@ Action define_analyze(CLI::App& app) {
   return [parsed] {
     return reported(parsed->form(), [&parsed] { return analyze(parsed->request, parsed->form()); });
   };
+}
+
+Action define_export(CLI::App& app) {
+  auto request = std::make_shared<ExportRequest>();
+  app.add_option("run", request->run, "Run folder")->required();
+  app.add_option("--format", request->format, "csv or isomme")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"csv", "isomme"}));
+  app.add_option("--out", request->out,
+                 "Folder to write into; export/ in the run folder by default");
+  return
+      [request] { return reported(OutputForm::Text, [&request] { return export_run(*request); }); };
 }
 
 Action define_report(CLI::App& app) {
@@ -113,6 +125,7 @@ std::vector<NodeCommand> commands() {
   return {{"rate", "Rate one signal against another.", define_rate},
           {"injury", "Injury metrics of head signals.", define_injury},
           {"analyze", "Channels, summary and table from a log.", define_analyze},
+          {"export", "Channels in an exchange format.", define_export},
           {"report", "One HTML page about a run.", define_report},
           {"compare", "Two or more runs side by side: table and HTML page.", define_compare},
           {"view", "Still pictures of a run.", define_view}};

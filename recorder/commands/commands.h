@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "common/error.h"
 #include "recorder/channel.h"
 
@@ -20,7 +22,7 @@ enum class OutputForm { Text, Json };
 struct RateRequest {
   std::string method;                        ///< "cora" or "iso18571"
   std::vector<std::filesystem::path> files;  ///< PAIR.csv, or REF.csv SIM.csv
-  std::filesystem::path run, reference_run;  ///< two runs instead of files
+  std::filesystem::path run, reference_run;  ///< runs instead of files
   std::filesystem::path parameters;          ///< JSON with overrides; may be empty
   std::filesystem::path set;                 ///< TOML rating set; empty: the paper's five signals
 };
@@ -33,6 +35,12 @@ struct InjuryRequest {
 struct AnalyzeRequest {
   std::filesystem::path source;  ///< a run folder, or any LCM event log
   std::filesystem::path out;     ///< empty: the run folder, or <log>.analysis beside the log
+};
+
+struct ExportRequest {
+  std::filesystem::path run;
+  std::string format = "csv";  ///< csv or isomme
+  std::filesystem::path out;   ///< empty: <run>/export
 };
 
 struct ReportRequest {
@@ -55,11 +63,17 @@ struct ViewRequest {
 };
 
 ExitCode rate(const RateRequest& request, OutputForm form);
+/// Two runs against each other, or a run against its test's curves.
+ExitCode rate_runs(const RateRequest& request, const nlohmann::json& overrides, OutputForm form);
 ExitCode injury(const InjuryRequest& request, OutputForm form);
 ExitCode analyze(const AnalyzeRequest& request, OutputForm form);
+ExitCode export_run(const ExportRequest& request);
 ExitCode report(const ReportRequest& request);
 ExitCode compare(const CompareRequest& request);
 ExitCode view(const ViewRequest& request);
+
+/// channels.csv of a run folder, made from its log when it is not there.
+std::vector<Channel> channels_of_run(const std::filesystem::path& run);
 
 /// Runs `command`; SignalError and UserError become the object or line above and exit code 2.
 ExitCode reported(OutputForm form, const std::function<ExitCode()>& command);

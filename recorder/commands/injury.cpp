@@ -5,6 +5,7 @@
 
 #include "recorder/commands/commands.h"
 #include "recorder/csv_table.h"
+#include "recorder/head_motion.h"
 #include "recorder/scoring/score_json.h"
 
 namespace crosswalk::recording {
@@ -92,12 +93,16 @@ void print_card(const ScoreCard& card) {
 }  // namespace
 
 ExitCode injury(const InjuryRequest& request, OutputForm form) {
-  HeadSignals signals = signals_of(read_csv(request.source));
-  if (!request.is_filtered) signals = filtered(signals);
+  const bool is_run = std::filesystem::is_directory(request.source);
+  // A run's channels are filtered already, at the rate they were recorded with.
+  HeadSignals signals =
+      is_run ? head_signals(channels_of_run(request.source)) : signals_of(read_csv(request.source));
+  if (!is_run && !request.is_filtered) signals = filtered(signals);
   const ScoreCard card = score_card(signals);
   if (form == OutputForm::Json) {
     nlohmann::ordered_json out = to_json(card);
-    out["filter"] = request.is_filtered ? "none" : "CFC 1000 linear, CFC 60 angular (ISO 6487)";
+    out["filter"] =
+        !is_run && request.is_filtered ? "none" : "CFC 1000 linear, CFC 60 angular (ISO 6487)";
     fmt::print("{}\n", out.dump(1));
   } else {
     print_card(card);

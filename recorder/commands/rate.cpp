@@ -107,6 +107,7 @@ ExitCode rate_iso18571(Pair pair, const json& overrides, OutputForm form) {
 
 ExitCode rate(const RateRequest& request, OutputForm form) {
   const json overrides = read_parameters(request.parameters);
+  if (!request.run.empty()) return rate_runs(request, overrides, form);
   const Pair pair = read_pair(request.files);
   return request.method == "cora" ? rate_cora(pair, overrides, form)
                                   : rate_iso18571(pair, overrides, form);

@@ -13,11 +13,11 @@ struct Analysis {
   Summary summary;
 };
 
-/// Everything from the log alone (and the scenario file beside it, for the car's profile).
+/// Everything from the log alone.
 Analysis analyze_log(const std::filesystem::path& log);
 
-/// The same from messages that are already read; `scenario` may not exist.
-Analysis analyze_record(const RunRecord& record, const std::filesystem::path& scenario);
+/// The same from messages that are already read.
+Analysis analyze_record(const RunRecord& record);
 
 /// Writes the three files.
 void write_results(const Analysis& analysis, const RunDirectory& directory);

@@ -78,6 +78,7 @@ class Extraction {
   void add_audit();
   void add_tissue();
   void find_head_contact();
+  void locate(HeadContact& contact) const;
   Series pair_force(std::size_t pair) const;
 
   const RunRecord& record_;
@@ -330,7 +331,27 @@ void Extraction::find_head_contact() {
     contact.relative_speed = resample(s.t, s.y, before, 1, 1)[0];
     contact.buck_speed = resample(buck_.velocity.t, buck_.velocity.y, before, 1, 1)[0];
   }
+  locate(contact);
   out_.head_contact = contact;
+}
+
+/// Where on the car: wrap-around distance and part of the profile point nearest to the head COG.
+void Extraction::locate(HeadContact& contact) const {
+  const double t = out_.t0 + contact.time;
+  const std::optional<Vec3> p_head = head_position_at(record_, t);
+  const std::optional<Vec3> origin = buck_origin_at(record_, names_, t);
+  if (!p_head || !origin || names_.front.facets.empty()) return;
+  const Eigen::Vector2d point(p_head->y() - origin->y(), p_head->z() - origin->z());
+  contact.wrap_around_distance = wrap_around_distance(names_.front, point);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const FrontFacet& facet : names_.front.facets) {
+    const Eigen::Vector2d along = facet.end - facet.begin;
+    const double s = std::clamp((point - facet.begin).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double distance = (point - facet.begin - s * along).norm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    contact.partner = facet.component;
+  }
 }
 
 }  // namespace

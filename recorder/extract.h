@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "common/vehicle_front.h"
 #include "recorder/channel.h"
 #include "recorder/run_record.h"
 #include "recorder/scoring/score_card.h"
@@ -23,8 +24,8 @@ namespace crosswalk::recording {
 struct RunNames {
   std::vector<std::string> bodies, contact_pairs, regions;
   int head_body = -1;
-  std::optional<double> vehicle_speed;   ///< m/s, along +y, constant, when the description says so
-  std::optional<double> bumper_front_y;  ///< m, of the foremost point at t = 0
+  VehicleFront front;                   ///< facets of the car's profile
+  std::optional<double> vehicle_speed;  ///< m/s, along +y, constant, when the description says so
 };
 RunNames run_names(const RunRecord& record);
 
@@ -45,7 +46,7 @@ std::optional<Vec3> head_position_at(const RunRecord& record, double t);
 
 struct HeadContact {
   double time = 0;            ///< s after t0, first head-vehicle force above 50 N
-  std::string partner;        ///< contact pair, or "car" when the stream does not tell
+  std::string partner;        ///< part of the car nearest to the head; else the pair, or "car"
   double peak_force = 0;      ///< N, of the head against the vehicle, whole run
   double relative_speed = 0;  ///< m/s, head COG against the buck, just before
   double buck_speed = 0;      ///< m/s, then

@@ -19,7 +19,7 @@ void conclude(const RunDirectory& directory, const Recorder& recorder) {
            1e-6 * static_cast<double>(recorder.bytes()), directory.signals().string());
   try {
     const RunRecord record = read_run_record(directory.signals());
-    const Analysis analysis = analyze_record(record, directory.scenario());
+    const Analysis analysis = analyze_record(record);
     write_results(analysis, directory);
     write_report(directory.report(), report_input(analysis, record, directory));
     for (const std::string& warning : analysis.summary.warnings) log_warning("{}", warning);

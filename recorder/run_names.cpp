@@ -46,6 +46,24 @@ int vehicle_index(const std::vector<std::string>& bodies) {
   return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
 }
 
+std::vector<FrontFacet> facets_of(const json& vehicle) {
+  std::vector<FrontFacet> facets;
+  if (!vehicle.contains("facets") || !vehicle["facets"].is_array()) return facets;
+  const auto point = [](const json& f, const char* key, Eigen::Vector2d& out) {
+    if (!f.contains(key) || !f[key].is_array() || f[key].size() != 2) return false;
+    if (!f[key][0].is_number() || !f[key][1].is_number()) return false;
+    out = {f[key][0].get<double>(), f[key][1].get<double>()};
+    return true;
+  };
+  for (const json& f : vehicle["facets"]) {
+    FrontFacet facet;
+    if (!point(f, "begin_yz_m", facet.begin) || !point(f, "end_yz_m", facet.end)) return {};
+    facet.component = f.value("component", "");
+    facets.push_back(facet);
+  }
+  return facets;
+}
+
 double seconds(std::int64_t t_ns) { return 1e-9 * static_cast<double>(t_ns); }
 
 }  // namespace
@@ -61,6 +79,7 @@ RunNames run_names(const RunRecord& record) {
     names.head_body = mb["head_body"];
   if (!mb.contains("vehicle") || !mb["vehicle"].is_object()) return names;
   const json& vehicle = mb["vehicle"];
+  names.front.facets = facets_of(vehicle);
   names.vehicle_speed = number(vehicle, {"speed_mps", "speed_m_s", "speed"});
   return names;
 }

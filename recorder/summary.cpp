@@ -171,14 +171,18 @@ Summary summarize(const RunRecord& record, const RunChannels& channels,
   if (!s.is_complete) s.warnings.push_back("the record is not complete: " + s.outcome);
   warn_limits(s);
   for (const Event& event : record.events) {
-    if (event.level == EventLevel::Info) continue;
+    const bool is_told = record.abort_reason && event.text == *record.abort_reason;
+    if (event.level == EventLevel::Info || is_told) continue;
     s.warnings.push_back(fmt::format("{} at {:.2f} ms: {}", role_name(event.sender),
                                      1e-6 * static_cast<double>(event.t_ns) - 1e3 * s.t0,
                                      event.text));
   }
   if (reference) {
+    // A run cut short before the head met the car says nothing about the head.
+    const bool is_judged = s.is_complete || s.head_contact;
     for (const Band& band : reference->bands) {
-      BandVerdict verdict{band, summary_quantity(s, band.quantity), false};
+      BandVerdict verdict{band, is_judged ? summary_quantity(s, band.quantity) : std::nullopt,
+                          false};
       if (verdict.value)
         verdict.is_inside = *verdict.value >= band.low && *verdict.value <= band.high;
       s.bands.push_back(verdict);

@@ -69,7 +69,7 @@ void head_rows(Table& t, const Summary& s) {
     const RotationScores& r = *s.card.rotation;
     t.row("BrIC", fmt::format("{:.2f}", r.BrIC.avg),
           fmt::format("peak angular velocity {:.1f} rad/s", r.peak_w));
-    t.row("DAMAGE", fmt::format("{:.2f}", r.DAMAGE.value), "0.42 .. 0.47: Euro NCAP band");
+    t.row("DAMAGE", fmt::format("{:.2f}", r.DAMAGE.value), "Euro NCAP band 0.42 .. 0.47");
   }
   t.gap();
 }
@@ -105,7 +105,7 @@ void quality_rows(Table& t, const Summary& s) {
     t.row("messages sent again", fmt::format("{}", s.coupling->resends));
   }
   t.row("record", s.is_complete ? "complete" : "INCOMPLETE",
-        s.is_complete ? fmt::format("{} messages", s.messages) : s.outcome);
+        s.is_complete ? fmt::format("{} messages", s.messages) : "see the warnings below");
   t.row("wall time", fmt::format("{:.1f} s", s.timing.wall),
         fmt::format("multibody {:.1f} s, finite elements {:.1f} s", s.timing.mb, s.timing.fe));
   t.gap();
@@ -117,9 +117,9 @@ void band_rows(Table& t, const Summary& s) {
   for (const BandVerdict& v : s.bands) {
     const std::string range =
         fmt::format("{:g} .. {:g} ({})", v.band.low, v.band.high, v.band.status);
-    t.row(
-        v.band.quantity, v.value ? fmt::format("{:.4g}", *v.value) : "-",
-        fmt::format("{:<8}{}", v.value ? (v.is_inside ? "inside" : "OUTSIDE") : "no value", range));
+    t.row(v.band.quantity, v.value ? fmt::format("{:.4g}", *v.value) : "-",
+          fmt::format("{:<10}{}", v.value ? (v.is_inside ? "inside" : "OUTSIDE") : "no value",
+                      range));
   }
   t.gap();
 }

@@ -34,7 +34,7 @@ std::string label_of(const Analysis& analysis, const fs::path& given) {
 ExitCode report(const ReportRequest& request) {
   const Source source(request.run);
   const RunRecord record = read_run_record(source.log);
-  const Analysis analysis = analyze_record(record, source.directory.scenario());
+  const Analysis analysis = analyze_record(record);
   ReportInput input = report_input(analysis, record, source.directory);
   for (const fs::path& other : request.with) {
     const Analysis second = analyze_log(Source(other).log);
@@ -53,7 +53,7 @@ ExitCode compare(const CompareRequest& request) {
   for (const fs::path& run : request.runs) {
     const Source source(run);
     RunRecord record = read_run_record(source.log);
-    Analysis analysis = analyze_record(record, source.directory.scenario());
+    Analysis analysis = analyze_record(record);
     runs.push_back({run.lexically_normal().filename().string(), std::move(analysis), {}});
     runs.back().scene = scene_of(record, runs.back().analysis.summary.t0);
   }

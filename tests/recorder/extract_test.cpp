@@ -82,11 +82,19 @@ TEST(Extract, HeadContactIsReportedAgainstTimeZero) {
   EXPECT_NEAR(run.head_contact->time, SyntheticRun::kHeadContact - run.t0, 2.1e-5);
   EXPECT_EQ(run.head_contact->peak_force, 2000);
   EXPECT_NEAR(run.head_contact->buck_speed, 11, 1e-9);
+}
+
+TEST(Extract, ContactIsLocatedOnTheProfile) {
   SyntheticRun multibody;
-  multibody.has_fe = false;
-  const RunChannels other = extract(record_of(multibody.messages()));
-  ASSERT_TRUE(other.head_contact);
-  EXPECT_EQ(other.head_contact->partner, "head_glass");
+  multibody.has_fe = false;  // the head is a body; its pair with the car is named head_...
+  const RunChannels run = extract(record_of(multibody.messages()));
+  ASSERT_TRUE(run.head_contact);
+  // The head COG is 0.4095 m behind the foremost point and 1.694 m above the ground; its foot on
+  // the hood's line from (0, 0.8) to (-1, 1) divides that line at s.
+  const double s = (0.4095 * 1.0 + 0.894 * 0.2) / (1.0 + 0.2 * 0.2);
+  EXPECT_EQ(run.head_contact->partner, "hood");
+  ASSERT_TRUE(run.head_contact->wrap_around_distance);
+  EXPECT_NEAR(*run.head_contact->wrap_around_distance, 0.8 + s * std::hypot(1.0, 0.2), 1e-3);
 }
 
 TEST(Extract, ReorderedDoubledAndReplayedMessagesGiveTheSameBits) {

@@ -23,7 +23,7 @@ RunRecord record_of(bool has_fe) {
   return builder.record();
 }
 
-Analysis analysis_of(bool has_fe) { return analyze_record(record_of(has_fe), {}); }
+Analysis analysis_of(bool has_fe) { return analyze_record(record_of(has_fe)); }
 
 RunRecord drawn_record() {
   RunRecord record;
@@ -83,7 +83,7 @@ const VerdictRow& row_of(const ReportInput& input, const std::string& label) {
 TEST(RunReport, VerdictTellsContactAndQuality) {
   const RunRecord record = record_of(true);
   const ReportInput input =
-      report_input(analyze_record(record, {}), record, RunDirectory("nowhere"));
+      report_input(analyze_record(record), record, RunDirectory("nowhere"));
   EXPECT_EQ(row_of(input, "Head contact time").value, "10.0");
   EXPECT_EQ(row_of(input, "Interface energy drift").status, Verdict::Good);
   EXPECT_EQ(row_of(input, "Record").status, Verdict::Good);
@@ -96,7 +96,7 @@ TEST(RunReport, VerdictTellsContactAndQuality) {
 TEST(RunReport, WithoutMeasuredCurvesNothingIsRated) {
   const RunRecord record = record_of(false);
   const ReportInput input =
-      report_input(analyze_record(record, {}), record, RunDirectory("nowhere"));
+      report_input(analyze_record(record), record, RunDirectory("nowhere"));
   EXPECT_EQ(row_of(input, "CORA and ISO/TS 18571").value, "not rated");
   EXPECT_FALSE(input.tissue);
 }

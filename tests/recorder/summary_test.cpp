@@ -73,7 +73,7 @@ TEST(Summary, BandsAreJudgedAndCurvesRated) {
   reference.test = "synthetic";
   reference.bands = {{"head_contact_time_ms", 9, 11, "estimated", "here"},
                      {"HIC15", 1e5, 1e6, "estimated", "here"},
-                     {"wrap_around_distance_mm", 1, 2, "estimated", "here"}};
+                     {"no_such_quantity", 1, 2, "estimated", "here"}};
   const RunRecord record = synthetic_record();
   const RunChannels run = extract(record);
   const Channel* own = run.find("head_speed_relative");

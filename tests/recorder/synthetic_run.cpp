@@ -78,7 +78,9 @@ void Writer::open() {
   d.text = R"({"bodies": ["pelvis", "buck"], "head_body": -1, "contact_pairs": ["car_total",)";
   send_record(d, Role::Mb);
   d.part = 1;
-  d.text = R"( "head_glass"], "vehicle": {"speed_mps": 11.0}})";
+  d.text = R"( "head_glass"], "vehicle": {"speed_m_s": 11.0, "facets": [)"
+           R"({"component": "bumper", "begin_yz_m": [0, 0.4], "end_yz_m": [0, 0.8]},)"
+           R"({"component": "hood", "begin_yz_m": [0, 0.8], "end_yz_m": [-1.0, 1.0]}]}})";
   send_record(d, Role::Mb);
   if (!run_.has_fe) return;
   d.part = 0;
@@ -127,7 +129,7 @@ void Writer::mb(std::int64_t k, std::int64_t t_ns) {
   m.interface_work = -2 * t;
   m.n_records = records[Role::Mb];
   for (auto& body : m.body) body.quaternion[0] = 1;
-  m.body[1].position[1] = -0.5 + Run::kBuckSpeed * t;
+  m.body[1].position[1] = 0.3 + Run::kBuckSpeed * t;
   m.body[1].velocity[1] = Run::kBuckSpeed;
   send(m, Role::Mb, k);
 }

@@ -345,7 +345,7 @@ void cards(CardIo& io, EquationOfState& eos, EosTabulated& law) {
   io.real_or("V0", law.volume, 1);
   io.id("LCC", law.c_curve);
   io.id("LCT", law.t_curve);
-  if (!io.has_optional(!law.c_curve.given())) return;
+  if (law.c_curve.given()) return;
   constexpr int kTableWidth = 16;
   for (auto* values : {&law.strain, &law.c, &law.t})
     for (std::size_t i = 0; i < values->size(); ++i) {

@@ -23,6 +23,7 @@ struct Evidence {
 };
 constexpr double kNarrowCost = 1, kWideCost = 5;
 constexpr double kClearMargin = 0.5;  // cost by which a likely guess beats the second
+constexpr double kMaxCost = 5;        // above it nothing fits
 
 double decades_outside(double value, double low, double high) {
   if (value < low) return std::log10(low / value);
@@ -143,7 +144,8 @@ UnitsGuess guess_units(const Deck& deck) {
   std::stable_sort(costs.begin(), costs.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   guess.system = costs[0].second;
-  const bool is_clear = costs[1].first - costs[0].first >= kClearMargin;
+  const bool is_clear =
+      costs[1].first - costs[0].first >= kClearMargin && costs[0].first <= kMaxCost;
   guess.certainty = is_clear ? UnitsGuess::Certainty::Likely : UnitsGuess::Certainty::Ambiguous;
   if (!is_clear) guess.second = costs[1].second;
   const UnitFactors factors = unit_factors(guess.system);

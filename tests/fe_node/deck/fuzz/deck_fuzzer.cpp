@@ -1,5 +1,5 @@
-// libFuzzer target of the deck reader: whatever the bytes, reading ends in a deck and a bounded list
-// of problems; a deck read without errors is written and read back to the same text.
+// libFuzzer target of the deck reader: whatever the bytes, reading ends in a deck and a bounded
+// list of problems; a deck read without errors is written and read back to the same text.
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>
@@ -12,7 +12,7 @@ namespace fe = crosswalk::fe;
 
 namespace {
 const fe::ReadOptions kNoIncludes{.includes = fe::ReadOptions::Includes::Ignore,
-                                      .include_paths = {}};
+                                  .include_paths = {}};
 
 void fail(const char* what, const std::string& first, const std::string& second) {
   std::cerr << what << "\n--- first\n" << first << "\n--- second\n" << second << '\n';

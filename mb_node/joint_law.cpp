@@ -137,9 +137,10 @@ double ligament_moment(const LigamentLaw& law, double displacement, LigamentHist
 double ligament_energy(const LigamentLaw& law, double displacement,
                        const LigamentHistory& history) {
   const double d = std::abs(displacement);
-  if (!history.is_torn) return law.moment.integral(d);
+  if (!history.is_torn && d <= law.failure) return law.moment.integral(d);
+  const double deepest = std::max(history.deepest, d);
   const double moment =
-      std::max(0.0, law.moment.value(history.deepest) - law.unloading * (history.deepest - d));
+      std::max(0.0, law.moment.value(deepest) - law.unloading * (deepest - d));
   return moment * moment / (2 * law.unloading);
 }
 

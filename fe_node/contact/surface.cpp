@@ -56,9 +56,9 @@ struct Collector {
   std::vector<FaceKey> solid_keys{};
   ContactSurface surface{};
 
-  void add_shells(ElementKind kind, const ContactPart& part) {
+  /// `local` counts the part's shells over both kinds.
+  void add_shells(ElementKind kind, const ContactPart& part, std::size_t& local) {
     const ElementTable& table = mesh.table(kind);
-    std::size_t local = 0;
     for (int e = 0; e < table.size(); ++e) {
       if (table.part[e] != part.part) continue;
       const std::span<const int> corners = mesh.corners(kind, e);
@@ -140,8 +140,9 @@ void ContactSurface::collect_nodes() {
 ContactSurface surface_of(const Mesh& mesh, std::span<const ContactPart> parts) {
   Collector collector{mesh, {}, {}};
   for (const ContactPart& part : parts) {
-    collector.add_shells(ElementKind::Quad4, part);
-    collector.add_shells(ElementKind::Tri3, part);
+    std::size_t local = 0;
+    collector.add_shells(ElementKind::Quad4, part, local);
+    collector.add_shells(ElementKind::Tri3, part, local);
     collector.add_solids(ElementKind::Hex8, part, kHexFaces);
     collector.add_solids(ElementKind::Tet4, part, kTetFaces);
     collector.add_solids(ElementKind::Tet10, part, kTetFaces);

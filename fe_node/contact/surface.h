@@ -43,7 +43,7 @@ struct ContactPart {
   int part = 0;                       ///< index in the mesh
   double bulk_modulus = 0;            ///< Pa
   double thickness = 0;               ///< m, of shells
-  std::vector<double> per_element{};  ///< m, per shell of the part in mesh order; may be empty
+  std::vector<double> per_element{};  ///< m, per shell, quadrilaterals first; may be empty
 };
 
 /// Shells of the parts and the faces of their solids that no second solid of the parts shares; a

@@ -48,6 +48,19 @@ void add_line_block(BuildContext& c, const Part& part, int index, std::vector<in
   c.model().blocks.push_back(make_line_block(c.mesh(), index, std::move(elements), *properties));
 }
 
+/// Thickness of each shell, m: the mean of its own corner values, else the section's. Empty when no
+/// shell has its own.
+std::vector<double> shell_thickness(const BuildContext& c, ElementKind kind,
+                                    const std::vector<int>& elements, double of_section) {
+  if (c.shell_thickness.empty()) return {};
+  std::vector<double> thickness;
+  for (int e : elements) {
+    const auto found = c.shell_thickness.find(c.built.model.mesh.table(kind).id[e]);
+    thickness.push_back(found == c.shell_thickness.end() ? of_section : found->second);
+  }
+  return thickness;
+}
+
 void add_part_blocks(BuildContext& c, int index) {
   const Part& part = c.deck.parts[index];
   for (ElementKind kind : kElementKinds) {
@@ -61,8 +74,9 @@ void add_part_blocks(BuildContext& c, int index) {
         c.model().blocks.push_back(
             make_hex8_block(c.mesh(), index, std::move(elements), *law, controls));
     } else if (const std::optional<ShellSection> section = shell_section(c, part)) {
-      c.model().blocks.push_back(
-          make_shell_block(c.mesh(), kind, index, std::move(elements), *section, controls));
+      const std::vector<double> thickness = shell_thickness(c, kind, elements, section->thickness);
+      c.model().blocks.push_back(make_shell_block(c.mesh(), kind, index, std::move(elements),
+                                                  *section, controls, thickness));
     }
   }
 }

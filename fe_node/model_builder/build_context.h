@@ -26,7 +26,8 @@ struct BuildContext {
   std::unordered_map<DeckId, const DeckCurve*> curves{};
   std::unordered_map<DeckId, const Hourglass*> hourglasses{};
   std::map<std::pair<SetKind, DeckId>, const DeckSet*> sets{};
-  std::unordered_map<int, int> body_of_part{};  ///< mesh part -> index into Model::bodies
+  std::unordered_map<DeckId, double> shell_thickness{};  ///< m, of shells with their own
+  std::unordered_map<int, int> body_of_part{};           ///< mesh part -> index into Model::bodies
 
   Model& model() { return built.model; }
   Mesh& mesh() { return built.model.mesh; }
@@ -55,5 +56,6 @@ void build_bodies(BuildContext& context);
 void build_blocks(BuildContext& context);
 void build_conditions(BuildContext& context);
 void build_contacts(BuildContext& context);
+void build_mesh_contacts(BuildContext& context);
 
 }  // namespace crosswalk::fe

@@ -1,4 +1,4 @@
-// Rigid walls, and contacts between meshes.
+// Rigid walls.
 #include <fmt/format.h>
 
 #include "fe_node/contact/rigid_surface.h"
@@ -53,10 +53,6 @@ void build_contacts(BuildContext& c) {
     c.model().bodies.push_back(body);
     c.built.walls.push_back(std::move(spec));
   }
-  for (const Contact& contact : c.deck.contacts)
-    if (contact.kind != ContactKind::ForceTransducer)
-      c.problem(contact.source, "*CONTACT_" + contact.keyword, "no contact between meshes yet",
-                "one");
 }
 
 }  // namespace crosswalk::fe

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "fe_node/model_builder/plastic_cards.h"
+
 namespace crosswalk::fe {
 namespace {
 
@@ -55,7 +57,9 @@ std::optional<SolidLaw> solid_law(BuildContext& c, const Material& material) {
     }
     return law;
   }
-  refuse(c, material, "solid");
+  const int problems = c.problem_count;
+  if (std::optional<SolidLaw> law = solid_law_of_matter(c, material)) return law;
+  if (c.problem_count == problems) refuse(c, material, "solid");
   return std::nullopt;
 }
 
@@ -74,39 +78,9 @@ std::optional<ShellLaw> shell_law(BuildContext& c, const Material& material) {
     return ShellElastic{density, 1e-9 * stress, 0.3};
   if (const auto* m = std::get_if<mat::Fabric>(&material.law); m != nullptr && m->ea > 0)
     return ShellTensionSheet{density, m->ea * stress, m->prba};
-  if (const auto* m = std::get_if<mat::PlasticKinematic>(&material.law)) {
-    ShellPlastic law;
-    law.density = density;
-    law.youngs_modulus = m->youngs * stress;
-    law.poisson_ratio = m->poisson;
-    const double E = m->youngs * stress, tangent = m->tangent * stress;
-    const double modulus = tangent > 0 ? E * tangent / (E - tangent) : 0.0;
-    law.yield = YieldStress(HardeningCurve::linear(m->yield * stress, m->hardening * modulus));
-    law.kinematic_modulus = (1 - m->hardening) * modulus;
-    if (m->failure_strain < kNever) law.failure_strain = m->failure_strain;
-    return law;
-  }
-  if (const auto* m = std::get_if<mat::PiecewiseLinearPlasticity>(&material.law);
-      m != nullptr && !m->stress_curve.given()) {
-    ShellPlastic law;
-    law.density = density;
-    law.youngs_modulus = m->youngs * stress;
-    law.poisson_ratio = m->poisson;
-    const double E = m->youngs * stress, tangent = m->tangent * stress;
-    std::vector<double> strains, stresses;
-    for (std::size_t i = 0; i < m->strain.size(); ++i)
-      if (m->stress[i] > 0 && (strains.empty() || m->strain[i] > strains.back())) {
-        strains.push_back(m->strain[i]);
-        stresses.push_back(m->stress[i] * stress);
-      }
-    law.yield = YieldStress(
-        strains.empty() ? HardeningCurve::linear(m->yield * stress,
-                                                 tangent > 0 ? E * tangent / (E - tangent) : 0.0)
-                        : HardeningCurve(strains, stresses));
-    if (m->failure_strain > 0 && m->failure_strain < kNever) law.failure_strain = m->failure_strain;
-    return law;
-  }
-  refuse(c, material, "shell");
+  const int problems = c.problem_count;
+  if (std::optional<ShellLaw> law = shell_law_of_matter(c, material)) return law;
+  if (c.problem_count == problems) refuse(c, material, "shell");
   return std::nullopt;
 }
 
@@ -136,12 +110,16 @@ std::optional<ShellSection> shell_section(BuildContext& c, const Part& part) {
     c.problem(part.source, who, "a *SECTION_SHELL with a thickness", "none");
     return std::nullopt;
   }
+  const double thickness = card->thickness[0] * c.units.length;
+  if (std::optional<ShellSection> glass = glass_section(c, *c.material_of(part), thickness))
+    return glass;
   std::optional<ShellLaw> law = shell_law(c, *c.material_of(part));
   if (!law) return std::nullopt;
-  const double thickness = card->thickness[0] * c.units.length;
+  const int points = std::clamp(card->points, 1, 10);
+  const ThicknessRule rule = points > 5 ? ThicknessRule::Lobatto : ThicknessRule::Gauss;
   ShellSection result = is_membrane(card->formulation)
                             ? membrane_section(*law, thickness)
-                            : uniform_section(*law, thickness, std::clamp(card->points, 1, 10));
+                            : uniform_section(*law, thickness, points, rule);
   if (card->formulation != 2 && !is_membrane(card->formulation))
     c.note(fmt::format("part {}: shell formulation {} is computed as Belytschko-Tsay (2)",
                        part.id.value, card->formulation));

@@ -92,6 +92,9 @@ void add_solids(BuildContext& c) {
 void add_shells(BuildContext& c) {
   for (const ShellElement& shell : c.deck.shells) {
     const bool triangle = is_triangle(shell);
+    double sum = 0;
+    for (int k = 0; k < (triangle ? 3 : 4); ++k) sum += shell.thickness[k];
+    if (sum > 0) c.shell_thickness[shell.id] = sum / (triangle ? 3 : 4) * c.units.length;
     add_element(c, triangle ? ElementKind::Tri3 : ElementKind::Quad4, shell.id, shell.part,
                 std::span<const DeckId>(shell.nodes).first(triangle ? 3 : 4), shell.source,
                 "*ELEMENT_SHELL");

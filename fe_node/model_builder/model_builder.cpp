@@ -95,6 +95,9 @@ void finish_model(BuiltModel& built) {
     for (RigidPatch& patch : wall.patches) std::get<PenaltyLaw>(patch.law).reference_step = step;
     built.model.contacts.push_back(make_rigid_surface_contact(wall));
   }
+  for (MeshContactSpec& contact : built.mesh_contacts)
+    built.model.contacts.push_back(make_mesh_contact(std::move(contact), step));
+  built.mesh_contacts.clear();
   built.model.finish();
 }
 
@@ -111,6 +114,7 @@ BuiltModel build_model(const Deck& deck, const BuildOptions& options) {
   build_blocks(context);
   build_conditions(context);
   build_contacts(context);
+  build_mesh_contacts(context);
   read_controls(context);
   context.problems.finish();
   return built;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fe_node/contact/mesh_contact.h"
 #include "fe_node/contact/rigid_surface.h"
 #include "fe_node/deck/deck.h"
 #include "fe_node/model.h"
@@ -32,6 +33,7 @@ struct BuiltModel {
   int part_set(std::string_view name) const;  ///< index, or -1
   /// Rigid walls, added to the model by finish_model() when the stable step is known.
   std::vector<RigidSurfaceSpec> walls;
+  std::vector<MeshContactSpec> mesh_contacts;  ///< likewise; the last contacts of the model
 };
 
 /// Adds the rigid walls, calls Model::finish() and reports added mass.

@@ -91,7 +91,7 @@ TEST_F(RealRun, KilledNodeLeavesAReadableLog) {
   EXPECT_EQ(status->code, 3) << launched.output();
   EXPECT_THAT(launched.output(), HasSubstr("crosswalk: mb_node failed at 1"));
   EXPECT_THAT(launched.output(), HasSubstr("kept in " + out("a").string()));
-  EXPECT_THAT(launched.output(), HasSubstr("signals.lcmlog"));
+  EXPECT_THAT(launched.output(), HasSubstr("signals.lcmlog ("));
   Launched analyze =
       call("recorder", {"analyze", out("a").string(), "--out", out("b").string()}, "analyze");
   const auto analyzed = analyze.wait(kLong);
@@ -99,12 +99,27 @@ TEST_F(RealRun, KilledNodeLeavesAReadableLog) {
   EXPECT_GT(channels_of(out("b")).size(), 10000u);
 }
 
+TEST_F(RealRun, MissingDeckIsNamedBeforeAnythingStarts) {
+  const fs::path bad = folder_.path() / "no_deck.toml";
+  std::ofstream(bad) << "base = \"" << (kScenarios / "v2370.toml").string()
+                     << "\"\n[head_neck]\ndeck = \"no_such_head.k\"\n";
+  Launched launched =
+      call("crosswalk", {"run", bad.string(), "--out", out("a").string()}, "no_deck");
+  const auto status = launched.wait(kLong);
+  ASSERT_TRUE(status);
+  EXPECT_EQ(status->code, 2) << launched.output();
+  EXPECT_THAT(launched.output(), HasSubstr("no_deck.toml:3:8: head_neck.deck: expected an existing "
+                                           "file, found \"no_such_head.k\""));
+  EXPECT_FALSE(fs::exists(out("a")));
+}
+
 TEST_F(RealRun, MistakesOfEveryProgramComeWithTheirPlaces) {
   std::ifstream in(kScenarios / "v2370.toml");
   const fs::path bad = folder_.path() / "bad.toml";
-  std::ofstream(bad) << "base = \"" << (kScenarios / "v2370.toml").string()
-                     << "\"\n[vehicle]\nspeed_m_s = 4000\n[coupling]\nsilent_after_m = 1\n[posture]\n"
-                        "right_hip_flexoin_deg = 5\n";
+  std::ofstream(bad)
+      << "base = \"" << (kScenarios / "v2370.toml").string()
+      << "\"\n[vehicle]\nspeed_m_s = 4000\n[coupling]\nsilent_after_m = 1\n[posture]\n"
+         "right_hip_flexoin_deg = 5\n";
   Launched check = call("crosswalk", {"check", bad.string()}, "check");
   const auto status = check.wait(kLong);
   ASSERT_TRUE(status);
@@ -124,21 +139,22 @@ TEST_F(RealRun, EveryScenarioHasNoMistakes) {
   }
 }
 
-class CoupledRun : public RealRun {
- protected:
-  void SetUp() override {
-    if (!fs::exists(kPrograms / "fe_node")) GTEST_SKIP() << "fe_node has no program yet";
-  }
-};
+TEST_F(RealRun, KeyReferenceInTheDocumentsIsCurrent) {
+  Launched keys = call("crosswalk", {"keys"}, "keys");
+  const auto status = keys.wait(kLong);
+  ASSERT_TRUE(status && status->is_success()) << keys.output();
+  EXPECT_TRUE(keys.output() == text_of(fs::path(CW_SOURCE_DIR) / "docs/scenario_keys.md"))
+      << "bring it up to date: ./crosswalk keys > docs/scenario_keys.md";
+}
 
-TEST_F(CoupledRun, ShortOnesAreBitIdenticalWithOneAndTwoThreads) {
+TEST_F(RealRun, CoupledRunsAreBitIdenticalWithOneAndTwoThreads) {
   complete("a", {"--until-ms", "0.5", "--threads", "1"});
   complete("b", {"--until-ms", "0.5", "--threads", "2"});
   EXPECT_TRUE(fs::exists(out("a") / "logs/fe_node.log"));
   EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
 }
 
-TEST_F(CoupledRun, KilledFeNodeEndsItByName) {
+TEST_F(RealRun, KilledFeNodeEndsACoupledRunByName) {
   Launched launched = run("a", {"--until-ms", "100"});
   ASSERT_TRUE(wait_for(kLong, [&] { return launched.has_said(" elapsed"); })) << launched.output();
   kill(launched.child("fe_node"), SIGKILL);

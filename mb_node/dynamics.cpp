@@ -56,6 +56,7 @@ void Dynamics::substep(MbState& state, double dt, std::span<const ExternalLoad> 
   for (const ExternalLoad& e : external) {
     if (e.segment == kCar) {
       push_on_car += e.load.f.y();
+      state.energy.car_interface_work += e.load.power(vehicle_twist(state.vehicle)) * dt;
     } else {
       loads_.interface[e.segment] += e.load;
     }

@@ -210,8 +210,9 @@ MbReply MbNode::reply(const MbGrant& grant, Eigen::MatrixXd mobility, std::uint6
   r.joint_elastic = dynamics_->joint_energy(state_);
   r.joint_dissipated = -state_.energy.joint_work - r.joint_elastic;
   r.contact_absorbed = state_.energy.car_work - state_.energy.contact_work;
-  r.car_work = state_.energy.car_work;
-  r.interface_work = state_.energy.interface_work;
+  // What the finite-element side does to the car, the car does to it: that work is the car's supply.
+  r.car_work = state_.energy.car_work - state_.energy.car_interface_work;
+  r.interface_work = state_.energy.interface_work + state_.energy.car_interface_work;
   for (const InterfaceSpec& spec : model_->config.interfaces) {
     r.bodies.push_back(motion_of(spec.body));
   }

@@ -72,10 +72,11 @@ struct JointHistory {
 };
 
 struct Energies {
-  double joint_work = 0;      ///< done by restraints on the bodies
-  double contact_work = 0;    ///< done by all contacts on the bodies
-  double car_work = 0;        ///< done by the moving car on its contacts
-  double interface_work = 0;  ///< done by the finite-element side on the bodies
+  double joint_work = 0;          ///< done by restraints on the bodies
+  double contact_work = 0;        ///< done by all contacts on the bodies
+  double car_work = 0;            ///< done by the moving car on its contacts
+  double interface_work = 0;      ///< done by the finite-element side on the bodies
+  double car_interface_work = 0;  ///< and on the car
 };
 
 struct MbState {

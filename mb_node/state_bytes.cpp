@@ -32,6 +32,7 @@ void visit(Archive& archive, State& state) {
   archive.value(state.energy.contact_work);
   archive.value(state.energy.car_work);
   archive.value(state.energy.interface_work);
+  archive.value(state.energy.car_interface_work);
   archive.value(state.substeps);
   archive.value(state.time);
   archive.value(state.first_contact_time);

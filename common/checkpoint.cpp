@@ -119,6 +119,19 @@ std::optional<std::int64_t> latest_checkpoint(const fs::path& checkpoints) {
   return window;
 }
 
+std::int64_t checkpoint_to_resume(const fs::path& checkpoints) {
+  const auto window = latest_checkpoint(checkpoints);
+  if (!window) {
+    throw UserError(
+        {{checkpoints.string()},
+         "--resume",
+         "a complete checkpoint",
+         "none",
+         "start the run anew; [coupling] checkpoint_every_ms sets how often one is written"});
+  }
+  return *window;
+}
+
 void ByteReader::copy(void* to, std::size_t n) {
   require(n <= bytes_.size() - at_);
   std::memcpy(to, bytes_.data() + at_, n);

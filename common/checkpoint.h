@@ -31,6 +31,8 @@ CheckpointPart read_part(const std::filesystem::path& checkpoints, Role role, st
 void commit_checkpoint(const std::filesystem::path& checkpoints, std::int64_t window);
 /// The window of the latest complete checkpoint.
 std::optional<std::int64_t> latest_checkpoint(const std::filesystem::path& checkpoints);
+/// The same for `--resume`; throws UserError when there is none.
+std::int64_t checkpoint_to_resume(const std::filesystem::path& checkpoints);
 
 /// Plain values to bytes and back, in the order written.
 class ByteWriter {

@@ -31,7 +31,7 @@ struct RunContext {
   RunDirectory directory;
   int threads = 0;      ///< 0: as many as OpenMP takes; already set
   double wait_s = 300;  ///< patience with peers that have not joined
-  bool resume = false;  ///< continue from the latest checkpoint (asked of the coupler, which tells)
+  bool resume = false;  ///< continue from the latest checkpoint; told to coupler and recorder
 };
 
 /// A further command of a program. `define` adds its options and returns what to do.

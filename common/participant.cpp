@@ -155,7 +155,7 @@ void MbSession::execute(const msg::step_to_mb& m) {
   const MbGrant grant = from_message(m);
   try {
     const MbReply reply = phased_.advance(participant_, grant);
-    if (m.window % 8 == 7) records().flush();
+    if ((m.window + 1) % kWindowsPerFlush == 0) records().flush();
     mobility_.clear();
     if (reply.mobility.size() > 0) {
       msg::mobility mobility = to_message(reply.mobility);
@@ -253,7 +253,7 @@ void FeSession::execute(const msg::step_to_fe& m) {
   if (m.mobility_id >= 0) grant.mobility = mobilities_.at(m.mobility_id);
   try {
     const FeReply reply = phased_.advance(participant_, grant);
-    if (m.window % 8 == 7) records().flush();
+    if ((m.window + 1) % kWindowsPerFlush == 0) records().flush();
     msg::fe_done done = to_message(grant.id, reply);
     done.n_records = records().count();
     done.work_us = elapsed_us(begin);

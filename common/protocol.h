@@ -32,6 +32,9 @@ inline constexpr int kMaxAttachedBodies = 4;   ///< bodies with a mobility
 inline constexpr int kMaxMessageBytes = 1400;
 /// The coupler stays at most this far ahead of the recorder's acknowledgement.
 inline constexpr int kMaxWindowsAhead = 64;
+/// Batched records are sent at the latest after so many windows; checkpoints fall on a multiple, when
+/// nothing waits.
+inline constexpr int kWindowsPerFlush = 8;
 /// Text pieces of node_description and the longest free text of other messages, bytes.
 inline constexpr int kDescriptionPieceBytes = 1000;
 inline constexpr int kMaxTextBytes = 800;

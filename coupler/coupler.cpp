@@ -18,7 +18,7 @@ Coupler::Coupler(CouplerSettings settings, MbLink& mb, FeLink* fe, RecordStream*
       audit_(settings_.limits) {}
 
 std::int64_t Coupler::run(const std::vector<InterfaceBody>& bodies) {
-  if (state_.motion.empty()) state_ = start_state(bodies);
+  if (state_.window == 0) state_ = start_state(bodies);
   while (advance()) {
   }
   return state_.window;
@@ -43,8 +43,10 @@ bool Coupler::advance() {
       fe_ != nullptr ? advance_window(settings_.scheme, state_, settings_.window_ns, mb_, *fe_)
                      : advance_multibody(state_, settings_.window_ns, mb_);
   audit_.book(result, state_);
-  publish_audit(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-  note_events(result);
+  const double wall_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  note_events(result);  // first, so that a window's audit proves that its events exist
+  publish_audit(wall_s);
 
   const std::int64_t now_ns = state_.window * settings_.window_ns;
   hooks_.progress(

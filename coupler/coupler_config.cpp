@@ -40,7 +40,8 @@ CouplerConfig read_coupling(ConfigDocument& document, const Scenario& scenario) 
                                            "car and pedestrian must touch before this time"));
   const double checkpoint = table.quantity_or("checkpoint_every", Dimension::Time, kNonNegative,
                                               0.02, "simulated time between checkpoints; 0: none");
-  config.checkpoint_every = std::llround(1e9 * checkpoint) / s.window_ns;
+  const std::int64_t windows = std::llround(1e9 * checkpoint) / s.window_ns;
+  config.checkpoint_every = (windows + kWindowsPerFlush - 1) / kWindowsPerFlush * kWindowsPerFlush;
   Patience& p = config.patience;
   p.silent_s = table.quantity_or("silent_after", Dimension::Time, {1, 1e6}, 15,
                                  "a node without heartbeat for so long ends the run");

@@ -55,26 +55,13 @@ std::string description(const CouplerSettings& s, const std::vector<InterfaceBod
   return out.dump();
 }
 
-std::int64_t checkpoint_to_resume(const RunDirectory& directory) {
-  const auto window = latest_checkpoint(directory.checkpoints());
-  if (!window) {
-    throw UserError(
-        {{directory.checkpoints().string()},
-         "--resume",
-         "a complete checkpoint",
-         "none",
-         "start the run anew; [coupling] checkpoint_every_ms sets how often one is written"});
-  }
-  return *window;
-}
-
 }  // namespace
 
 ExitCode run_coupler(RunContext& context) {
   CouplerConfig config = read_coupling(context.document, context.scenario);
   context.document.finish();
   CouplerSettings& settings = config.settings;
-  config.patience.join_s = config.patience.configure_s = context.wait_s;
+  config.patience.join_s = context.wait_s;
   if (settings.has_fe && settings.scheme.scheme == Scheme::Staggered) {
     tell(EventLevel::Warning,
          "scheme = \"staggered\" lags the force by one window and can gain energy; "
@@ -82,7 +69,7 @@ ExitCode run_coupler(RunContext& context) {
   }
 
   const std::filesystem::path checkpoints = context.directory.checkpoints();
-  const std::int64_t first_window = context.resume ? checkpoint_to_resume(context.directory) : 0;
+  const std::int64_t first_window = context.resume ? checkpoint_to_resume(checkpoints) : 0;
   Bus bus(open_transport(context.url), context.run_id, Role::Coupler,
           BusFaults::from_environment());
   Hub hub(bus,

@@ -25,8 +25,8 @@ double since(Bus::Clock::time_point t) {
   return std::chrono::duration<double>(Bus::Clock::now() - t).count();
 }
 
-// A process of this host that has gone, or is dead and not yet waited for; on other hosts only silence
-// tells.
+// A process of this host that has gone, or is dead and not yet waited for; on other hosts only
+// silence tells.
 bool has_vanished(const msg::node_hello& hello) {
   char host[64] = {};
   gethostname(host, sizeof host - 1);
@@ -347,15 +347,14 @@ void Hub::checkpoint(std::int64_t window) {
         {Role::Recorder}, what, [&] { return acknowledged_ >= window - 1; },
         [this] { bus_.publish(status(), 0); }, patience_.first_resend_s);
   }
-  std::vector<Role> solvers = {Role::Mb};
-  if (plan_.has_fe) solvers.push_back(Role::Fe);
+  const std::vector<Role> nodes = required();
   const auto all_written = [&] {
-    return std::ranges::all_of(solvers,
+    return std::ranges::all_of(nodes,
                                [&](Role role) { return peer(role).status.checkpoint == window; });
   };
   const auto ask = [&] { control(Command::Checkpoint, window); };
   ask();
-  wait_for(solvers, what, all_written, ask, 0.5);
+  wait_for(nodes, what, all_written, ask, 0.5);
 }
 
 bool Hub::finish(std::int64_t last_window) {

@@ -33,15 +33,13 @@ struct RunPlan {
 };
 
 struct Patience {
-  double claim_s = 0.1;      ///< between the three claims
-  double join_s = 300;       ///< until every role has said hello
-  double configure_s = 300;  ///< without any progress of a node that configures itself
-  double silent_s = 15;      ///< without a heartbeat
-  double stalled_s = 120;    ///< heartbeats, but no progress in an unanswered window
+  double claim_s = 0.1;    ///< between the three claims
+  double join_s = 300;     ///< until every role has said hello
+  double silent_s = 15;    ///< without a heartbeat
+  double stalled_s = 120;  ///< heartbeats, but no progress in an unanswered window
   double first_resend_s = 0.05;
   double longest_resend_s = 2;
-  double checkpoint_s = 120;  ///< for the parts of a checkpoint to be written
-  double finish_s = 60;       ///< for the recorder to complete its record
+  double finish_s = 60;  ///< for the recorder to complete its record
 };
 
 /// What the coupler knows of one node of the run.
@@ -69,7 +67,7 @@ class Hub {
   void start();
   /// Blocks while the recorder is more than kMaxWindowsAhead behind.
   void follow_recorder(std::int64_t window);
-  /// Has every solver write its part for `window`, the next to do, when all before it is on record.
+  /// Has every node write its part for `window`, the next to do, when all before it is on record.
   void checkpoint(std::int64_t window);
   /// Ends the run in order. False when the record could not be completed in time.
   bool finish(std::int64_t last_window);

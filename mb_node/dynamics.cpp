@@ -81,6 +81,7 @@ void Dynamics::substep(MbState& state, double dt, std::span<const ExternalLoad> 
   }
   state.energy.car_work += car_power_ * dt;
   advance_vehicle(model_.config.vehicle, state.time, dt, push_on_car, state.vehicle);
+  state.contact_set = report_.contact_set;
   state.time += dt;
   ++state.substeps;
   if (state.first_contact_time < 0 && report_.car_total.norm() >= kContactThreshold) {

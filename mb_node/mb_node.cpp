@@ -114,7 +114,7 @@ MbReply MbNode::advance(const MbGrant& grant, RecordSink& sink) {
     }
   }
   *pending_ = {};
-  const std::uint64_t contacts_before = dynamics_->contacts().contact_set;
+  const std::uint64_t contacts_before = state_.contact_set;
   const std::vector<char> bones_before = state_.bone_broken;
   Eigen::MatrixXd W;
   if (grant.want_mobility) {
@@ -201,8 +201,7 @@ MbReply MbNode::reply(const MbGrant& grant, Eigen::MatrixXd mobility, std::uint6
   MbReply r;
   r.substeps = substep_count(grant.id.length_s(), model_->config.multibody.substep);
   r.contacts = dynamics_->contacts().contacts;
-  r.mobility_changed =
-      dynamics_->contacts().contact_set != contacts_before || state_.bone_broken != bones_before;
+  r.mobility_changed = state_.contact_set != contacts_before || state_.bone_broken != bones_before;
   r.first_contact = state_.first_contact_time >= 0;
   r.state_hash = state_hash();
   r.kinetic = dynamics_->kinetic_energy();
@@ -210,7 +209,8 @@ MbReply MbNode::reply(const MbGrant& grant, Eigen::MatrixXd mobility, std::uint6
   r.joint_elastic = dynamics_->joint_energy(state_);
   r.joint_dissipated = -state_.energy.joint_work - r.joint_elastic;
   r.contact_absorbed = state_.energy.car_work - state_.energy.contact_work;
-  // What the finite-element side does to the car, the car does to it: that work is the car's supply.
+  // What the finite-element side does to the car, the car does to it: that work is the car's
+  // supply.
   r.car_work = state_.energy.car_work - state_.energy.car_interface_work;
   r.interface_work = state_.energy.interface_work + state_.energy.car_interface_work;
   for (const InterfaceSpec& spec : model_->config.interfaces) {

@@ -87,6 +87,7 @@ struct MbState {
   std::vector<double> self_deepest;  ///< by self-contact pair
   std::vector<char> bone_broken;     ///< by bone
   Energies energy;
+  std::uint64_t contact_set = 0;  ///< hash of the pairs in touch in the last substep
   std::int64_t substeps = 0;
   double time = 0;
   double first_contact_time = -1;  ///< s; -1: not yet

@@ -33,6 +33,7 @@ void visit(Archive& archive, State& state) {
   archive.value(state.energy.car_work);
   archive.value(state.energy.interface_work);
   archive.value(state.energy.car_interface_work);
+  archive.value(state.contact_set);
   archive.value(state.substeps);
   archive.value(state.time);
   archive.value(state.first_contact_time);

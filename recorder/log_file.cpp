@@ -69,8 +69,14 @@ bool seek_sync(std::FILE* file, long from) {
 
 }  // namespace
 
-LogWriter::LogWriter(const std::filesystem::path& path)
-    : path_(path), file_(std::fopen(path.c_str(), "wb")) {
+LogWriter::LogWriter(const std::filesystem::path& path, const LogExtent& kept)
+    : path_(path), next_(kept.events), bytes_(kept.bytes) {
+  if (kept.bytes > 0) {
+    std::error_code error;
+    std::filesystem::resize_file(path, static_cast<std::uintmax_t>(kept.bytes), error);
+    if (error) fail(path, "a file that can be cut", error.message());
+  }
+  file_.reset(std::fopen(path.c_str(), kept.bytes > 0 ? "ab" : "wb"));
   if (!file_) fail(path, "a file that can be written", std::strerror(errno));
   std::setvbuf(file_.get(), nullptr, _IOFBF, kBufferBytes);
 }

@@ -24,10 +24,18 @@ struct LogEvent {
   std::vector<std::byte> data;
 };
 
-/// Appends events to a new file. Throws UserError when the file cannot be made, and on a full disk.
+/// What a pass over a log found besides its events.
+struct LogExtent {
+  std::int64_t events = 0;
+  std::int64_t bytes = 0;      ///< in whole events
+  std::int64_t cut_bytes = 0;  ///< left over behind the last whole event
+};
+
+/// Appends events to a new file, or to the first `kept` of one that is there; the rest is cut off.
+/// Throws UserError when the file cannot be made, and on a full disk.
 class LogWriter {
  public:
-  explicit LogWriter(const std::filesystem::path& path);
+  explicit LogWriter(const std::filesystem::path& path, const LogExtent& kept = {});
   void write(std::int64_t time_us, const std::string& channel, std::span<const std::byte> data);
   /// Hands everything written so far to the operating system.
   void flush();
@@ -42,13 +50,6 @@ class LogWriter {
   std::unique_ptr<std::FILE, Close> file_;
   std::int64_t next_ = 0;
   std::int64_t bytes_ = 0;
-};
-
-/// What a pass over a log found besides its events.
-struct LogExtent {
-  std::int64_t events = 0;
-  std::int64_t bytes = 0;      ///< in whole events
-  std::int64_t cut_bytes = 0;  ///< left over behind the last whole event
 };
 
 /// Calls `handler` for every whole event, in file order; damaged stretches are skipped to the next

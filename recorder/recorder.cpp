@@ -1,7 +1,10 @@
 #include "recorder/recorder.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
+#include "common/error.h"
 #include "recorder/message_decode.h"
 
 namespace crosswalk::recording {
@@ -11,13 +14,33 @@ namespace {
 /// Done messages to ask for when an audit tells of a window whose grant number is unknown.
 constexpr std::int64_t kBlindAsk = 64;
 
+/// `log`, unless it holds a record that is not to be continued.
+const std::filesystem::path& unused(const std::filesystem::path& log, const LogExtent& kept) {
+  std::error_code none;
+  if (kept.events == 0 && std::filesystem::file_size(log, none) > 0 && !none) {
+    throw UserError({{log.string()},
+                     "--out",
+                     "a folder without a log",
+                     "the log of an earlier run",
+                     "choose another folder, or continue that run with --resume"});
+  }
+  return log;
+}
+
 MessageKind done_kind(Role role) {
   return role == Role::Mb ? MessageKind::MbDone : MessageKind::FeDone;
 }
 
 }  // namespace
 
-Recorder::Recorder(const std::filesystem::path& log, std::int64_t run) : log_(log), run_(run) {}
+Recorder::Recorder(const std::filesystem::path& log, std::int64_t run, const LogExtent& kept)
+    : log_(unused(log, kept), kept), run_(run) {
+  if (kept.events == 0) return;
+  read_log(log, [this](const LogEvent& event) {
+    const auto h = peek_header(event.data);
+    if (h && h->run_id == run_) book(*h, event.data);
+  });
+}
 
 std::vector<Role> Recorder::solvers() const {
   return has_fe_ ? std::vector<Role>{Role::Mb, Role::Fe} : std::vector<Role>{Role::Mb};

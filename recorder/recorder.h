@@ -30,7 +30,10 @@ struct Gap {
 
 class Recorder {
  public:
-  Recorder(const std::filesystem::path& log, std::int64_t run);
+  /// `kept`: the part of an earlier log, up to a checkpoint, from which the run continues. Throws
+  /// UserError when `log` holds messages that nobody asked to continue: a record is not
+  /// overwritten.
+  Recorder(const std::filesystem::path& log, std::int64_t run, const LogExtent& kept = {});
 
   /// Every message of the run's channels, as it came.
   void add(const std::string& channel, std::span<const std::byte> data, std::int64_t arrival_us);
@@ -44,6 +47,7 @@ class Recorder {
   bool has_finish() const { return last_window_ >= -1; }
   /// Hands the log to the operating system.
   void flush() { log_.flush(); }
+  LogExtent extent() const { return {log_.events(), log_.bytes(), 0}; }
   std::int64_t messages() const { return log_.events(); }
   std::int64_t bytes() const { return log_.bytes(); }
 

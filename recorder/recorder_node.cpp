@@ -41,7 +41,10 @@ ExitCode run_recorder(RunContext& context) {
   context.document.finish();
   Bus bus(open_transport(context.url), context.run_id, Role::Recorder,
           BusFaults::from_environment());
-  Recorder recorder(context.directory.signals(), bus.run());
+  const std::filesystem::path checkpoints = context.directory.checkpoints();
+  const LogExtent kept =
+      context.resume ? kept_log(checkpoints, checkpoint_to_resume(checkpoints)) : LogExtent{};
+  Recorder recorder(context.directory.signals(), bus.run(), kept);
   NodeIdentity identity;
   identity.scenario_digest = static_cast<std::int64_t>(context.scenario.digest);
   identity.version = version_text();
@@ -53,7 +56,7 @@ ExitCode run_recorder(RunContext& context) {
     if (!is_concluded) conclude(context.directory, recorder);
     is_concluded = true;
   };
-  RecorderSession session(bus, recorder, identity, limits, conclude_once);
+  RecorderSession session(bus, recorder, identity, limits, conclude_once, checkpoints);
   try {
     const ExitCode code = session.run(interrupt_flag());
     conclude_once();

@@ -15,8 +15,9 @@ constexpr auto kAskInterval = 100ms;  // between two requests for the same gap
 }  // namespace
 
 RecorderSession::RecorderSession(Bus& bus, Recorder& recorder, NodeIdentity identity, Limits limits,
-                                 std::function<void()> write_results)
-    : NodeSession(bus, std::move(identity), limits),
+                                 std::function<void()> write_results,
+                                 std::filesystem::path checkpoints)
+    : NodeSession(bus, std::move(identity), limits, std::move(checkpoints)),
       recorder_(recorder),
       write_results_(std::move(write_results)) {
   bus_.subscribe_raw(channel_pattern(bus_.run()),
@@ -34,7 +35,20 @@ void RecorderSession::on_manifest(const msg::run_manifest&) {
 }
 
 void RecorderSession::on_control(const msg::run_control& control) {
-  if (static_cast<Command>(control.command) == Command::Start) set_state(NodeState::Solving, -1);
+  const auto command = static_cast<Command>(control.command);
+  if (command == Command::Start) set_state(NodeState::Solving, -1);
+  // The coupler asks again while something is missing.
+  if (command == Command::Checkpoint && recorder_.gaps(1).empty()) {
+    recorder_.flush();
+    ByteWriter part;
+    part.put(recorder_.extent());
+    write_checkpoint({control.window, -1, 0, part.take()});
+  }
+}
+
+LogExtent kept_log(const std::filesystem::path& checkpoints, std::int64_t window) {
+  const CheckpointPart part = read_part(checkpoints, Role::Recorder, window);
+  return ByteReader(part.state).get<LogExtent>();
 }
 
 void RecorderSession::after_message() {

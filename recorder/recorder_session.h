@@ -1,6 +1,7 @@
 // The recorder's part in the life of a run (docs/messages.md, "What the recorder owes").
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <set>
 
@@ -13,7 +14,7 @@ class RecorderSession : public NodeSession {
  public:
   /// `write_results` is called once, when the record is complete, before the coupler is told.
   RecorderSession(Bus& bus, Recorder& recorder, NodeIdentity identity, Limits limits,
-                  std::function<void()> write_results);
+                  std::function<void()> write_results, std::filesystem::path checkpoints = {});
 
  private:
   void on_manifest(const msg::run_manifest& manifest) override;
@@ -33,5 +34,8 @@ class RecorderSession : public NodeSession {
   bool has_gap_since_last_tick_ = false;
   bool is_written_ = false;
 };
+
+/// How much of the log the checkpoint of `window` holds.
+LogExtent kept_log(const std::filesystem::path& checkpoints, std::int64_t window);
 
 }  // namespace crosswalk::recording

@@ -10,7 +10,8 @@ namespace crosswalk::toy {
 /// Acknowledges the audits it has heard, without keeping anything.
 class AckingRecorder : public NodeSession {
  public:
-  AckingRecorder(Bus& bus, NodeIdentity identity) : NodeSession(bus, std::move(identity), {}) {
+  AckingRecorder(Bus& bus, NodeIdentity identity, std::filesystem::path checkpoints = {})
+      : NodeSession(bus, std::move(identity), {}, std::move(checkpoints)) {
     last_audit.window = -1;
     bus.subscribe<msg::coupling_audit>(Role::Coupler, [this](const msg::coupling_audit& m) {
       ++audits;
@@ -36,6 +37,9 @@ class AckingRecorder : public NodeSession {
     if (manifest()) acknowledge(last_audit.window);
   }
   void on_control(const msg::run_control& control) override {
+    if (control.command == static_cast<int>(Command::Checkpoint)) {
+      write_checkpoint({control.window, -1, 0, {}});
+    }
     if (control.command != static_cast<int>(Command::Finish)) return;
     msg::node_status done{};
     done.state = static_cast<int>(NodeState::Done);

@@ -95,7 +95,7 @@ class Lockstep : public testing::Test {
   }
   pid_t start_recorder() {
     return spawn([this] {
-      toy::AckingRecorder recorder(*bus(Role::Recorder), kListener);
+      toy::AckingRecorder recorder(*bus(Role::Recorder), kListener, checkpoints_);
       return static_cast<int>(recorder.run(never_));
     });
   }

@@ -82,6 +82,44 @@ TEST_F(RealRun, StockPlayerReplaysTheLogIntoAFreshRecorder) {
   EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
 }
 
+TEST_F(RealRun, ResumesAfterAKillWithTheChannelsOfAnUninterruptedRun) {
+  const std::vector<std::string> options = {"--mode", "multibody", "--until-ms", "30"};
+  complete("whole", options);
+  Launched first = run("a", options);
+  ASSERT_TRUE(wait_for(kLong, [&] { return fs::exists(out("a") / "checkpoints/latest.json"); }))
+      << first.output();
+  kill(first.child("mb_node"), SIGKILL);
+  ASSERT_TRUE(first.wait(kLong)) << first.output();
+
+  const auto resume = [&](const std::string& program, std::vector<std::string> further) {
+    std::vector<std::string> arguments = {"run",
+                                          "--scenario",
+                                          (out("a") / "scenario.toml").string(),
+                                          "--run-id",
+                                          provenance("a", "run_id"),
+                                          "--out",
+                                          out("a").string()};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    return call(program, arguments, program + "_again");
+  };
+  // Without --resume the log of the first part must not be overwritten.
+  Launched careless = resume("recorder", {});
+  const auto refused = careless.wait(kLong);
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->code, 2) << careless.output();
+  EXPECT_THAT(careless.output(), HasSubstr("signals.lcmlog"));
+
+  Launched recorder = resume("recorder", {"--resume"});
+  Launched solver = resume("mb_node", {});
+  Launched coupler = resume("coupler", {"--resume"});
+  for (Launched* node : {&coupler, &solver, &recorder}) {
+    const auto status = node->wait(kLong);
+    ASSERT_TRUE(status) << node->output();
+    EXPECT_TRUE(status->is_success()) << node->output();
+  }
+  EXPECT_TRUE(channels_of(out("a")) == channels_of(out("whole")));
+}
+
 TEST_F(RealRun, KilledNodeLeavesAReadableLog) {
   Launched launched = run("a", {"--mode", "multibody", "--until-ms", "150"});
   ASSERT_TRUE(wait_for(kLong, [&] { return launched.has_said("  10."); })) << launched.output();

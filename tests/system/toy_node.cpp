@@ -43,7 +43,8 @@ ExitCode run_recorder(RunContext& context) {
   AckingRecorder recorder(bus,
                           {.scenario_digest = static_cast<std::int64_t>(context.scenario.digest),
                            .version = version_text(),
-                           .bodies = {}});
+                           .bodies = {}},
+                          context.directory.checkpoints());
   return recorder.run(interrupt_flag());
 }
 

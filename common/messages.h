@@ -6,7 +6,6 @@
 // named, never used.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -113,17 +112,6 @@ msg::tissue_strain to_message(const TissueSample& sample);
 MbGrant as_on_wire(MbGrant grant);
 FeGrant as_on_wire(FeGrant grant);
 Eigen::MatrixXd mobility_as_on_wire(Eigen::MatrixXd mobility);
-
-/// Empty when every number is finite and believable (|position| < 1e4 m, speed < 500 m/s, rotation
-/// < 1e4 rad/s, force < 1e7 N, impulse < 1e4 N s, counts within bounds); else field, index and
-/// value.
-std::optional<std::string> problem_in(const msg::step_to_mb& m);
-std::optional<std::string> problem_in(const msg::mb_done& m);
-std::optional<std::string> problem_in(const msg::step_to_fe& m);
-std::optional<std::string> problem_in(const msg::fe_done& m);
-std::optional<std::string> problem_in(const msg::mobility& m);
-std::optional<std::string> problem_in(const msg::boundary_motion& m);
-std::optional<std::string> problem_in(const msg::boundary_mass& m);
 
 /// Free text for the wire: control characters removed, cut at `max_bytes`.
 std::string wire_text(std::string text, int max_bytes = kMaxTextBytes);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "common/message_gate.h"
+
 namespace crosswalk {
 
 GrantLedger::Verdict GrantLedger::judge(std::int64_t seq) const {

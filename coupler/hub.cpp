@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "common/log.h"
+#include "common/message_gate.h"
 #include "common/node_session.h"
 #include "crosswalk/msg/recorder_ack.hpp"
 #include "crosswalk/msg/run_event.hpp"

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "common/message_gate.h"
+
 namespace crosswalk::coupling {
 
 namespace {

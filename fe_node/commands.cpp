@@ -51,7 +51,7 @@ NodeCommand solve_command() {
             options.add_option("--end-ms", *end_ms, "End time, ms; as the deck says by default")
                 ->check(CLI::PositiveNumber);
             options.add_option("--units", *units,
-                               "Unit system, such as mm-tonne-s, if the deck states none");
+                               "Unit system, such as mm-t-s, if the deck states none");
             options.add_flag("--accept-missing", request->accept_missing,
                              "Run although keywords that change the physics are not understood");
             options.add_option("--restart", request->restart, "restart.bin to go on from");
@@ -62,7 +62,7 @@ NodeCommand solve_command() {
                 request->units = unit_system_from(*units);
                 if (request->units == UnitSystem::Unknown)
                   throw UserError(
-                      Problem{{}, "--units", "m-kg-s, mm-tonne-s, mm-kg-ms, ...", *units, {}});
+                      Problem{{}, "--units", "m-kg-s, mm-t-s, mm-kg-ms, ...", *units, {}});
               }
               const SolveResult result = solve_deck(*request);
               std::cout << energy_table(result);

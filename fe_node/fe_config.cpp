@@ -30,11 +30,11 @@ HeadNeckConfig read_head_neck(ConfigTable table, const Anthropometry& a, Fidelit
   if (!config.is_generated) {
     config.deck = table.file("deck", "Path of a keyword deck, from the scenario's folder.");
     const std::string units = table.text_or(
-        "units", "", "Unit system of the deck, such as mm-tonne-s, if it states none.");
+        "units", "", "Unit system of the deck, such as mm-t-s, if it states none.");
     if (!units.empty()) {
       config.units = unit_system_from(units);
       if (config.units == UnitSystem::Unknown)
-        table.problem("units", "m-kg-s, mm-tonne-s, mm-kg-ms, ...", units);
+        table.problem("units", "m-kg-s, mm-t-s, mm-kg-ms, ...", units);
     }
     const std::vector<double> joint =
         table.quantities("joint", Dimension::Length, 3,

@@ -312,6 +312,8 @@ void FeNode::load_state(const std::vector<std::byte>& bytes) {
   reader.value(run_.next_field_ns);
   std::int64_t done = 0;
   reader.value(done);
+  if (!reader.is_at_end())
+    throw ProtocolError(ExitCode::CheckpointMismatch, "the saved state is too long for this model");
   progress_ = done;
 }
 

@@ -14,11 +14,11 @@ namespace {
 
 /// Waiting threads of OpenMP spin for long by default, which starves the other processes of a
 /// coupled run and, on a busy machine, the solver's own threads. The runtime reads its settings
-/// before main(), hence the program starts itself once more with a short spin. A user's own setting
-/// is kept.
-void limit_spinning(char** argv) {
+/// before main(), hence the program starts itself once more. For 1 ms of v2370 on two busy cores it
+/// took 12 s with 20000 spins, 3.3 s with 300 and 1.4 s without. A user's own setting is kept.
+void forbid_spinning(char** argv) {
   if (std::getenv("GOMP_SPINCOUNT") != nullptr || std::getenv("OMP_WAIT_POLICY") != nullptr) return;
-  setenv("GOMP_SPINCOUNT", "20000", 1);  // about 20 us
+  setenv("OMP_WAIT_POLICY", "passive", 1);
   execv("/proc/self/exe", argv);
 }
 
@@ -26,7 +26,7 @@ void limit_spinning(char** argv) {
 
 int main(int argc, char** argv) {
   using namespace crosswalk;
-  limit_spinning(argv);
+  forbid_spinning(argv);
   return node_main(
       argc, argv,
       {.name = "fe_node",

@@ -127,10 +127,6 @@ ExitCode run_command(const RunRequest& request, const std::vector<std::string>& 
   catch_interrupts();
   signal(SIGPIPE, SIG_IGN);
   setenv("CROSSWALK_LAUNCHER", std::to_string(getpid()).c_str(), 1);
-  // Threads that spin at a barrier take the processor from the very thread they wait for. On two
-  // busy cores the finite-element part took 12 s with 20000 spins, 3.3 s with 300 and 1.4 s
-  // without, for 1 ms of v2370. A policy set by the user stays.
-  setenv("OMP_WAIT_POLICY", "passive", 0);
   ProgressDisplay display(stdout, isatty(STDOUT_FILENO) != 0 ? ProgressDisplay::Style::Live
                                                              : ProgressDisplay::Style::Plain);
   Supervisor supervisor(process_specs(scenario, request, directory, run_id, transport.url),

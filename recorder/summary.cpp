@@ -126,6 +126,12 @@ std::string outcome_of(const RunRecord& record) {
 }
 
 void add_statements(Summary& s, const std::optional<ReferenceData>& reference) {
+  if (!s.tissue.empty()) {
+    s.statements.push_back(
+        "The head model has not been compared with head experiments: brain strains and what "
+        "follows "
+        "from them (MPS, CSDM) must not be used.");
+  }
   s.statements.push_back(
       "Car profile and contact curves, body joints and tissue laws are engineering estimates where "
       "no "

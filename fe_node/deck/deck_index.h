@@ -56,7 +56,6 @@ class DeckIndex {
   }
   /// Index of a node in Deck::nodes, or -1.
   std::int32_t node_index(DeckId id) const { return nodes_.find(id); }
-  bool has_element(SetKind kind, DeckId id) const { return elements(kind).has(id); }
 
   /// Members of a set: lists, existing ids of ranges, GENERAL rules, sums; each once, in order of
   /// appearance. What cannot be expanded is named in `unknown` (set, then reason). A set that does

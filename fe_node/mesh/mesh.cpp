@@ -44,12 +44,6 @@ std::span<const int> Mesh::corners(ElementKind kind, int element) const {
       .subspan(static_cast<std::size_t>(element) * count, count);
 }
 
-int Mesh::find_part(std::string_view wanted) const {
-  for (int i = 0; i < static_cast<int>(parts.size()); ++i)
-    if (parts[i].name == wanted) return i;
-  return -1;
-}
-
 int Mesh::find_node_set(std::string_view wanted) const {
   for (int i = 0; i < static_cast<int>(node_sets.size()); ++i)
     if (node_sets[i].name == wanted) return i;

@@ -55,8 +55,7 @@ struct Mesh {
   }
   ElementTable& table(ElementKind kind) { return elements[static_cast<std::size_t>(kind)]; }
   std::span<const int> corners(ElementKind kind, int element) const;
-  /// Index of the part or set of that name, or -1.
-  int find_part(std::string_view name) const;
+  /// Index of the set of that name, or -1.
   int find_node_set(std::string_view name) const;
 };
 

@@ -16,7 +16,7 @@ UnitFactors units_of(const Deck& deck, const BuildOptions& options) {
   if (system == UnitSystem::Unknown)
     throw UserError(Problem{deck.files.names.empty() ? Place{} : Place{deck.files.names[0]},
                             "unit system", "one stated", "none",
-                            "add a line `$ crosswalk: unit_system=mm-tonne-s` or give --units"});
+                            "add a line `$ crosswalk: unit_system=mm-t-s` or give --units"});
   return unit_factors(system);
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/message_gate.h"
 #include "crosswalk/msg/body_states.hpp"
 #include "crosswalk/msg/contact_forces.hpp"
 #include "crosswalk/msg/coupling_audit.hpp"

@@ -14,7 +14,8 @@ if(CROSSWALK_SANITIZE)
   # without vptr: LCM's header casts an object to a type it is not (lcm-cpp-impl.hpp, untyped handlers)
   target_compile_options(cw_flags INTERFACE -fsanitize=address,undefined -fno-sanitize=vptr
                          -fno-sanitize-recover=all
-                         -fno-omit-frame-pointer)
+                         -fno-omit-frame-pointer
+                         -Wno-uninitialized)  # false in g++ 12's avx512fintrin.h
   target_link_options(cw_flags INTERFACE -fsanitize=address,undefined)
 endif()
 

@@ -40,6 +40,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"MUSTACHE_INCLUDE_DIR", "libkainjow-mustache-dev"},
     {"HTTPLIB_INCLUDE_DIR", "libcpp-httplib-dev"},
     {"NPM", ""},
+    {"Simbody", ""},  // oracle of the multibody tests
     {"CHROMIUM", ""},
     {"NODE", ""},
     {"CCACHE", ""}};

@@ -1,6 +1,4 @@
 // The multibody pedestrian against published trends and bands, in whole impacts (label validation).
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "mb_node/study.h"
@@ -81,25 +79,6 @@ TEST(Trends, StifferGlassRaisesThePeakAcceleration) {
   };
   EXPECT_LT(with_glass(0.7), with_glass(1.0));
   EXPECT_LT(with_glass(1.0), with_glass(1.5));
-}
-
-TEST(Throw, ComesToRestWithinThePublishedRelations) {
-  // Launch at v: v^2 / (2 mu g) <= S <= v^2 (1 + mu^2) / (2 mu g), mu = 0.66 [searle1983]; a
-  // wrapped body leaves at 0.75 to 0.95 of the impact speed [happer2000], so the lower bound is
-  // taken at 0.75.
-  constexpr double kFriction = 0.66, kGravity = 9.80665;
-  for (const int speed : {25, 40, 60}) {
-    const SoloSummary s =
-        impact("throw_40", "[vehicle]\nspeed_km_h = " + std::to_string(speed) + ".0\n", 4.0);
-    const double v = speed / 3.6;
-    EXPECT_LT(s.rest_speed, 0.2) << speed;
-    const double shortest = std::pow(0.75 * v, 2) / (2 * kFriction * kGravity);
-    const double longest = v * v * (1 + kFriction * kFriction) / (2 * kFriction * kGravity);
-    EXPECT_GT(s.throw_distance, shortest) << speed;
-    EXPECT_LT(s.throw_distance, longest) << speed;
-    // Regression of wrap cases, km/h and m, about +- 7 km/h [happer2000].
-    EXPECT_NEAR(13.3 * std::sqrt(s.throw_distance) - 4.6, speed, 7);
-  }
 }
 
 }  // namespace

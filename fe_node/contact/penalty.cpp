@@ -11,7 +11,16 @@ namespace crosswalk::fe {
 namespace {
 
 /// What a node keeps between steps, as doubles.
-enum NodeSlot { kDirection = 0, kFriction = 3, kAllowance = 6, kStiffness, kTouches, kNodeSlots };
+enum NodeSlot {
+  kDirection = 0,
+  kFriction = 3,
+  kAllowance = 6,
+  kStiffness,
+  kTouches,
+  kLastFacet,
+  kLastDistance,
+  kNodeSlots
+};
 /// What a near node leaves for the serial sum of a step.
 enum ResultSlot {
   kFacet = 0,  ///< -1: no contact
@@ -70,6 +79,18 @@ class PenaltyContact final : public ContactInterface {
   std::size_t result_begin_ = 0;
   int node_entries_ = 0;
 };
+
+/// Has a node that touched `last` at `last_distance` gone through the sheet it is now `distance`
+/// beyond? A passage is gradual and stays on neighbouring facets; a node between two sheets that
+/// comes nearer to the other one has not passed anything.
+bool has_passed(const ContactFacet& facet, const ContactFacet& last, double distance,
+                double last_distance, double reach) {
+  const bool are_neighbours = std::any_of(facet.node.begin(), facet.node.end(), [&](int n) {
+    return std::find(last.node.begin(), last.node.end(), n) != last.node.end();
+  });
+  constexpr double kJump = 0.25;  // of the reach, in one step
+  return are_neighbours && std::abs(distance + last_distance) < kJump * reach;
+}
 
 double mean_edge(const std::vector<ContactPass>& passes, std::span<const NodeRecord> nodes) {
   double sum = 0, count = 0;
@@ -185,7 +206,12 @@ Touch PenaltyContact::nearest(const ContactPass& pass, const NearNode& near,
     t.u = d > 1e-10 + 1e-9 * reach ? Vec3(away / d)
                                    : Vec3(side < 0 ? -t.projection.normal : t.projection.normal);
     t.distance = d;
-    bool is_behind = facet.is_two_sided ? was_touching && t.u.dot(last_u) < 0 : side < 0;
+    const bool is_behind =
+        facet.is_two_sided
+            ? was_touching && t.u.dot(last_u) < 0 &&
+                  has_passed(facet, pass.facets[static_cast<std::size_t>(memory[kLastFacet])], d,
+                             memory[kLastDistance], reach)
+            : side < 0;
     if (is_behind) {
       t.u = -t.u;
       t.distance = -d;
@@ -270,6 +296,8 @@ void PenaltyContact::solve_near(const ContactPass& pass, const NearNode& near,
   Eigen::Map<Vec3>(memory + kDirection) = t.u;
   memory[kStiffness] = law.stiffness;
   memory[kTouches] = 1;
+  memory[kLastFacet] = t.index;
+  memory[kLastDistance] = t.distance;
   result[kFacet] = t.index;
   Eigen::Map<Vec3>(result + kOnNode) = forces.on_node;
   for (int i = 0; i < 4; ++i) Eigen::Map<Vec3>(result + kOnCorner + 3 * i) = forces.on_corner[i];

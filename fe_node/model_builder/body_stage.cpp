@@ -97,6 +97,7 @@ class BodyStage {
     for (std::size_t p = 0; p < c_.deck.parts.size(); ++p) add_part(static_cast<int>(p));
     for (const ExtraNodes& extra : c_.deck.extra_nodes) add_extra_nodes(extra);
     for (const NodalRigidBody& body : c_.deck.nodal_rigid_bodies) add_nodal_body(body);
+    for (const NodeTie& tie : c_.deck.node_ties) add_weld(tie);
     claim_nodes();
     for (const std::string& name : c_.options.followers) {
       RigidBody body;
@@ -183,6 +184,29 @@ class BodyStage {
     body.nodes = c_.node_set(record.node_set, record.source);
     if (record.has_inertia) body.own = given_inertia(c_, record.inertia, record.source, record.id);
     c_.model().bodies.push_back(body);
+  }
+
+  /// A spot weld is a small rigid body of its nodes.
+  void add_weld(const NodeTie& tie) {
+    if (tie.kind != NodeTie::Kind::Spotweld && tie.kind != NodeTie::Kind::GeneralizedSpot) {
+      c_.problem(tie.source, "node tie", "a spot weld", "another tie of nodes",
+                 "use *CONSTRAINED_SPOTWELD or *CONSTRAINED_NODAL_RIGID_BODY");
+      return;
+    }
+    RigidBody body;
+    body.name = fmt::format("spot weld {}", c_.model().bodies.size());
+    if (tie.kind == NodeTie::Kind::Spotweld) {
+      for (DeckId id : tie.nodes)
+        if (const int n = c_.node(id, tie.source, "*CONSTRAINED_SPOTWELD"); n >= 0)
+          body.nodes.push_back(n);
+    } else {
+      body.nodes = c_.node_set(tie.node_set, tie.source);
+    }
+    const bool can_fail = tie.normal_force > 0 || tie.shear_force > 0 ||
+                          (tie.failure_strain > 0 && tie.failure_strain < kNever) ||
+                          (tie.failure_time > 0 && tie.failure_time < kNever);
+    if (can_fail) c_.note(body.name + ": failure is not computed, the weld holds");
+    if (body.nodes.size() > 1) c_.model().bodies.push_back(body);
   }
 
   /// A node belongs to one body; the first to claim it keeps it and the other is a problem.

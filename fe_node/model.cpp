@@ -1,6 +1,7 @@
 #include "fe_node/model.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/error.h"
 
@@ -87,7 +88,13 @@ void finish_body(Model& model, int index) {
     CW_ASSERT(model.body_of_node[node] == -1);  // the model builder merges bodies that share nodes
     model.body_of_node[node] = index;
     total = total + Inertia::of_point(model.mass[node], model.mesh.position[node]);
+    if (model.has_rotations()) total.about_com += model.inertia[node] * Mat3::Identity();
   }
+  // Nodes on one line leave the spin about it without inertia, and it moves none of them.
+  constexpr double kSlender = 1e-6;  // of the trace
+  const double trace = total.about_com.trace();
+  if (total.about_com.determinant() < std::pow(kSlender, 2) * std::pow(trace, 3))
+    total.about_com += kSlender * trace * Mat3::Identity();
   if (body.role == BodyRole::Follower) return;
   CW_ASSERT(body.role != BodyRole::Free || total.mass > 0);
   body.origin = total.com;

@@ -51,6 +51,9 @@ State initial_state(const Model& model, const Pose& X_WD, const Twist& V_WD) {
       state.nodes[n].set_velocity(X_WD.q * start.velocity);
       is_started[n] = 1;
     }
+  for (const FixedNode& fixed : model.fixed)
+    for (int axis = 0; axis < 3; ++axis)
+      if (fixed.translation[axis]) state.nodes[fixed.node].v[axis] = 0;
   for (const RigidBody& body : model.bodies) {
     state.bodies.push_back(initial_body(body, X_WD, V_WD));
     start_body(body, is_started, state, state.bodies.back());

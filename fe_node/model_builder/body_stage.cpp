@@ -186,11 +186,20 @@ class BodyStage {
     c_.model().bodies.push_back(body);
   }
 
-  /// A spot weld is a small rigid body of its nodes.
+  /// A spot weld that never fails is a small rigid body of its nodes.
   void add_weld(const NodeTie& tie) {
     if (tie.kind != NodeTie::Kind::Spotweld && tie.kind != NodeTie::Kind::GeneralizedSpot) {
       c_.problem(tie.source, "node tie", "a spot weld", "another tie of nodes",
                  "use *CONSTRAINED_SPOTWELD or *CONSTRAINED_NODAL_RIGID_BODY");
+      return;
+    }
+    const bool can_fail = tie.normal_force > 0 || tie.shear_force > 0 ||
+                          (tie.failure_strain > 0 && tie.failure_strain < kNever) ||
+                          (tie.failure_time > 0 && tie.failure_time < kNever);
+    if (can_fail || tie.axes.given()) {
+      c_.problem(tie.source, "spot weld", "one that never fails, in global axes",
+                 can_fail ? "a failure force, strain or time" : "local axes",
+                 "leave the failure fields blank to weld the nodes for good");
       return;
     }
     RigidBody body;
@@ -202,10 +211,6 @@ class BodyStage {
     } else {
       body.nodes = c_.node_set(tie.node_set, tie.source);
     }
-    const bool can_fail = tie.normal_force > 0 || tie.shear_force > 0 ||
-                          (tie.failure_strain > 0 && tie.failure_strain < kNever) ||
-                          (tie.failure_time > 0 && tie.failure_time < kNever);
-    if (can_fail) c_.note(body.name + ": failure is not computed, the weld holds");
     if (body.nodes.size() > 1) c_.model().bodies.push_back(body);
   }
 

@@ -5,19 +5,30 @@
 
 #include <fmt/format.h>
 
+#include "fe_node/deck/units_guess.h"
 #include "fe_node/model_builder/build_context.h"
 #include "fe_node/solver.h"
 
 namespace crosswalk::fe {
 namespace {
 
-UnitFactors units_of(const Deck& deck, const BuildOptions& options) {
-  const UnitSystem system = options.units != UnitSystem::Unknown ? options.units : deck.units;
-  if (system == UnitSystem::Unknown)
+/// What the caller or the deck states; else a clear guess, which the user is told of.
+UnitFactors units_of(const Deck& deck, const BuildOptions& options,
+                     std::vector<std::string>& notes) {
+  if (options.units != UnitSystem::Unknown) return unit_factors(options.units);
+  const UnitsGuess guess = guess_units(deck);
+  if (guess.certainty == UnitsGuess::Certainty::Likely) {
+    std::string note = fmt::format(
+        "units guessed as {0}; --units {0} or `$ crosswalk: unit_system={0}` states them",
+        unit_system_name(guess.system));
+    for (const std::string& reason : guess.reasons) note += "; " + reason;
+    notes.push_back(std::move(note));
+  } else if (guess.certainty != UnitsGuess::Certainty::Stated) {
     throw UserError(Problem{deck.files.names.empty() ? Place{} : Place{deck.files.names[0]},
                             "unit system", "one stated", "none",
                             "add a line `$ crosswalk: unit_system=mm-t-s` or give --units"});
-  return unit_factors(system);
+  }
+  return unit_factors(guess.system);
 }
 
 template <class Record>
@@ -103,7 +114,7 @@ void finish_model(BuiltModel& built) {
 
 BuiltModel build_model(const Deck& deck, const BuildOptions& options) {
   BuiltModel built;
-  BuildContext context{deck, options, units_of(deck, options), built};
+  BuildContext context{deck, options, units_of(deck, options, built.notes), built};
   index_by_id(deck.sections, context.sections);
   index_by_id(deck.materials, context.materials);
   index_by_id(deck.curves, context.curves);

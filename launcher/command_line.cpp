@@ -55,6 +55,7 @@ CLI::App* define_run(CLI::App& app, RunRequest& request) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   run->add_flag("--isolate", request.is_isolated, "Keep the messages in a private network");
+  run->add_flag("--watch", request.is_watched, "Serve a live page on localhost while it runs");
   return run;
 }
 

@@ -22,6 +22,7 @@ struct RunRequest {
   std::string url;                 ///< empty: one UDP port per run
   double wait_s = 300;             ///< patience until every process has joined
   bool is_isolated = false;        ///< private network asked for
+  bool is_watched = false;         ///< live page asked for
 };
 
 /// The scenario file a user means: an existing path, or a name under scenarios/tests/ here or in

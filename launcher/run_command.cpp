@@ -1,10 +1,13 @@
 #include "launcher/run_command.h"
 
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -12,7 +15,9 @@
 #include "common/interrupt.h"
 #include "common/protocol.h"
 #include "launcher/check_command.h"
+#include "launcher/handover.h"
 #include "launcher/network.h"
+#include "launcher/process.h"
 #include "launcher/supervisor.h"
 
 namespace crosswalk {
@@ -103,6 +108,33 @@ void tell_what_was_kept(const RunDirectory& directory) {
   fmt::print("kept in {}: {}logs/\n", directory.root().string(), kept);
 }
 
+/// The live page's server, a reader of the growing log. Started before the run may move into a
+/// private network, so that a browser reaches it; the run does not depend on it.
+class LivePageProcess {
+ public:
+  explicit LivePageProcess(const RunDirectory& directory)
+      : process_({.name = "watch",
+                  .program = sibling_program("recorder"),
+                  .arguments = {"watch", directory.root().string(), "--ends-with-run"},
+                  .log = directory.log("watch"),
+                  .is_output_piped = true}) {
+    pollfd ready{process_.output(), POLLIN, 0};
+    std::array<char, 256> address{};
+    if (poll(&ready, 1, 5000) == 1 && read(process_.output(), address.data(), 255) > 0) {
+      fmt::print("live page: {}", address.data());
+    } else {
+      fmt::print("no live page: {}\n", last_words(directory.log("watch")));
+    }
+  }
+  /// Gives open browsers the time to fetch the report.
+  void let_finish() {
+    for (int i = 0; i < 60 && !process_.poll(); ++i) usleep(100'000);
+  }
+
+ private:
+  Process process_;
+};
+
 }  // namespace
 
 ExitCode run_command(const RunRequest& request, const std::vector<std::string>& command) {
@@ -116,6 +148,8 @@ ExitCode run_command(const RunRequest& request, const std::vector<std::string>& 
   std::ofstream(directory.scenario()) << document.resolved_text();
   write_provenance(directory, run_id, scenario.digest, command);
 
+  std::optional<LivePageProcess> live_page;
+  if (request.is_watched) live_page.emplace(directory);
   const Transport transport = open_network(request, run_id);
   fmt::print("{} ({}{}), {:g} ms from first contact, in {}\n", scenario.name,
              name_of(scenario.mode),
@@ -140,6 +174,7 @@ ExitCode run_command(const RunRequest& request, const std::vector<std::string>& 
     tell_what_was_kept(directory);
   }
   std::fflush(stdout);
+  if (live_page) live_page->let_finish();
   return verdict.code;
 }
 

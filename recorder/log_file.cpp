@@ -102,6 +102,16 @@ void LogWriter::flush() {
   if (std::fflush(file_.get()) != 0) fail(path_, "room on the disk", std::strerror(errno));
 }
 
+void LogFollower::poll(const std::function<void(const LogEvent&)>& handler) {
+  const File file(std::fopen(path_.c_str(), "rb"), &std::fclose);
+  LogEvent event;
+  if (!file || std::fseek(file.get(), at_, SEEK_SET) != 0) return;
+  while (read_event(file.get(), event)) {
+    handler(event);
+    at_ = std::ftell(file.get());
+  }
+}
+
 LogExtent read_log(const std::filesystem::path& path,
                    const std::function<void(const LogEvent&)>& handler) {
   const File file(std::fopen(path.c_str(), "rb"), &std::fclose);

@@ -52,6 +52,18 @@ class LogWriter {
   std::int64_t bytes_ = 0;
 };
 
+/// Reads a log that another process is still writing.
+class LogFollower {
+ public:
+  explicit LogFollower(std::filesystem::path path) : path_(std::move(path)) {}
+  /// Calls `handler` for every whole event added since the last call; the file need not exist yet.
+  void poll(const std::function<void(const LogEvent&)>& handler);
+
+ private:
+  std::filesystem::path path_;
+  long at_ = 0;
+};
+
 /// Calls `handler` for every whole event, in file order; damaged stretches are skipped to the next
 /// sync word and counted as cut. Throws UserError when the file cannot be read.
 LogExtent read_log(const std::filesystem::path& path,

@@ -86,7 +86,7 @@ std::optional<Pose> head_pose(const RunRecord& record, std::int64_t t_ns) {
 
 }  // namespace
 
-Scene scene_of(const RunRecord& record, double t0) {
+Scene shapes_of(const RunRecord& record) {
   const json mb = described(record, Role::Mb);
   Scene scene;
   for (const json& name : member(mb, "bodies")) {
@@ -95,6 +95,10 @@ Scene scene_of(const RunRecord& record, double t0) {
   add_ellipsoids(scene, mb);
   if (mb.contains("vehicle") && mb["vehicle"].is_object()) add_facets(scene, mb["vehicle"]);
   add_head(scene, described(record, Role::Fe));
+  return scene;
+}
+
+void add_frames(Scene& scene, const RunRecord& record, double t0) {
   const auto buck = std::find(scene.bodies.begin(), scene.bodies.end(), "buck");
   const auto buck_index = static_cast<std::size_t>(buck - scene.bodies.begin());
   for (const auto& [t_ns, poses] : record.bodies) {
@@ -106,6 +110,11 @@ Scene scene_of(const RunRecord& record, double t0) {
     if (buck_index < poses.size()) frame.X_WV = poses[buck_index];
     scene.frames.push_back(std::move(frame));
   }
+}
+
+Scene scene_of(const RunRecord& record, double t0) {
+  Scene scene = shapes_of(record);
+  add_frames(scene, record, t0);
   return scene;
 }
 

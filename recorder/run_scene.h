@@ -7,6 +7,11 @@
 
 namespace crosswalk::recording {
 
+/// The shapes alone, without frames.
+Scene shapes_of(const RunRecord& record);
+/// Appends the frames of a record to a scene that has its shapes.
+void add_frames(Scene& scene, const RunRecord& record, double t0);
+
 /// `t0` (s): simulated time of first contact. An empty scene when the log holds no body poses.
 Scene scene_of(const RunRecord& record, double t0);
 

@@ -119,6 +119,16 @@ Action define_view(CLI::App& app) {
   return [request] { return reported(OutputForm::Text, [&request] { return view(*request); }); };
 }
 
+Action define_watch(CLI::App& app) {
+  auto request = std::make_shared<WatchRequest>();
+  app.add_option("run", request->run, "Run folder, of a running or a finished run")->required();
+  app.add_option("--port", request->port, "First port tried on 127.0.0.1")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 65000));
+  app.add_flag("--ends-with-run", request->ends_with_run, "End when the run's report is written");
+  return [request] { return reported(OutputForm::Text, [&request] { return watch(*request); }); };
+}
+
 }  // namespace
 
 std::vector<NodeCommand> commands() {
@@ -128,7 +138,8 @@ std::vector<NodeCommand> commands() {
           {"export", "Channels in an exchange format.", define_export},
           {"report", "One HTML page about a run.", define_report},
           {"compare", "Two or more runs side by side: table and HTML page.", define_compare},
-          {"view", "Still pictures of a run.", define_view}};
+          {"view", "Still pictures of a run.", define_view},
+          {"watch", "Live page of a run on localhost.", define_watch}};
 }
 
 }  // namespace crosswalk::recording

@@ -62,6 +62,12 @@ struct ViewRequest {
   std::filesystem::path out;     ///< empty: pictures/ in the run folder
 };
 
+struct WatchRequest {
+  std::filesystem::path run;
+  int port = 8080;
+  bool ends_with_run = false;  ///< as `crosswalk run --watch` wants it
+};
+
 ExitCode rate(const RateRequest& request, OutputForm form);
 /// Two runs against each other, or a run against its test's curves.
 ExitCode rate_runs(const RateRequest& request, const nlohmann::json& overrides, OutputForm form);
@@ -71,6 +77,7 @@ ExitCode export_run(const ExportRequest& request);
 ExitCode report(const ReportRequest& request);
 ExitCode compare(const CompareRequest& request);
 ExitCode view(const ViewRequest& request);
+ExitCode watch(const WatchRequest& request);
 
 /// channels.csv of a run folder, made from its log when it is not there.
 std::vector<Channel> channels_of_run(const std::filesystem::path& run);

@@ -1,7 +1,10 @@
 // What is made to be looked at: report, comparison, still pictures.
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include "common/interrupt.h"
 #include "recorder/commands/commands.h"
+#include "recorder/live_feed.h"
 #include "recorder/report/frames.h"
 #include "recorder/run_compare.h"
 #include "recorder/run_report.h"
@@ -80,6 +83,31 @@ ExitCode view(const ViewRequest& request) {
   for (const fs::path& file : write_stills(folder, scene, times, request.height)) {
     fmt::print("{}\n", file.string());
   }
+  return ExitCode::Done;
+}
+
+ExitCode watch(const WatchRequest& request) {
+  if (!fs::is_directory(request.run)) {
+    throw UserError(
+        Problem{{request.run.string()}, "live page", "the folder of a run", "no folder", {}});
+  }
+  if (!report_is_interactive()) {
+    throw UserError(Problem{{},
+                            "live page",
+                            "a build with npm",
+                            "a build without",
+                            "apt-get install npm, then configure and build again"});
+  }
+  catch_interrupts();
+  const pid_t parent = getppid();
+  const auto stop = [&] {
+    return is_interrupted() || (request.ends_with_run && getppid() != parent);
+  };
+  if (nice(19) == -1) {  // harmless: the run goes first where it can
+    fmt::print(stderr, "watch: runs at normal priority\n");
+  }
+  serve_live_page(request.run, request.port,
+                  request.ends_with_run ? LivePage::UntilRunEnds : LivePage::Lasting, stop);
   return ExitCode::Done;
 }
 

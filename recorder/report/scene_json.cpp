@@ -35,6 +35,17 @@ nlohmann::ordered_json mesh_json(const SceneMesh& mesh) {
 
 }  // namespace
 
+std::string poses_base64(const Scene& scene) {
+  std::vector<float> poses;
+  for (const SceneFrame& frame : scene.frames) {
+    poses.push_back(static_cast<float>(frame.t));
+    for (const Pose& X : frame.X_WB) append(poses, X);
+    append(poses, frame.X_WH.value_or(Pose{}));
+    append(poses, frame.X_WV);
+  }
+  return base64_of(poses);
+}
+
 nlohmann::ordered_json scene_json(const Scene& scene) {
   nlohmann::ordered_json out;
   out["bodies"] = scene.bodies;
@@ -54,14 +65,7 @@ nlohmann::ordered_json scene_json(const Scene& scene) {
                              {"half_width", f.half_width}});
   }
   if (scene.head) out["head"] = mesh_json(*scene.head);
-  std::vector<float> poses;
-  for (const SceneFrame& frame : scene.frames) {
-    poses.push_back(static_cast<float>(frame.t));
-    for (const Pose& X : frame.X_WB) append(poses, X);
-    append(poses, frame.X_WH.value_or(Pose{}));
-    append(poses, frame.X_WV);
-  }
-  out["frames"] = base64_of(poses);
+  out["frames"] = poses_base64(scene);
   return out;
 }
 

@@ -39,6 +39,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"JAR", "default-jdk"},
     {"MUSTACHE_INCLUDE_DIR", "libkainjow-mustache-dev"},
     {"HTTPLIB_INCLUDE_DIR", "libcpp-httplib-dev"},
+    {"HTTPLIB_LIBRARY", "libcpp-httplib-dev"},
     {"NPM", ""},
     {"Simbody", ""},  // oracle of the multibody tests
     {"CHROMIUM", ""},

@@ -74,6 +74,20 @@ export class Stage {
     this.headIndex = data.head ? this.bodies.length : Math.max(0, data.bodies.indexOf('head'));
   }
 
+  /** More frames, as in the scene's block. */
+  append(more) {
+    const all = new Float32Array(this.frames.length + more.length);
+    all.set(this.frames);
+    all.set(more, this.frames.length);
+    this.frames = all;
+    this.count = Math.floor(all.length / this.stride);
+  }
+
+  headAt(t) {
+    this.place(t);
+    return this.headPosition.clone();
+  }
+
   time(i) { return this.frames[i * this.stride]; }
   get begin() { return this.time(0); }
   get end() { return this.time(this.count - 1); }

@@ -85,26 +85,11 @@ ReportTable result_table(const std::vector<ComparedRun>& runs) {
   return table;
 }
 
-Series finite_series(const Channel& channel) {
-  Series series;
-  for (std::size_t i = 0; i < channel.samples.size(); ++i) {
-    if (!std::isfinite(channel.samples[i])) continue;
-    series.t.push_back(channel.time(i));
-    series.y.push_back(channel.samples[i]);
-  }
-  return series;
-}
-
 std::optional<double> cora_between(const RunChannels& reference, const RunChannels& simulation,
-                                   const std::string& name) {
-  const Channel* a = reference.find(name);
-  const Channel* b = simulation.find(name);
-  if (a == nullptr || b == nullptr) return std::nullopt;
-  try {
-    return cora(finite_series(*a), finite_series(*b), {}, {}).C;
-  } catch (const SignalError&) {
-    return std::nullopt;  // shown as a dash
-  }
+                                   const RatedSignal& signal) {
+  const SignalRating rating =
+      rate_against_run({signal}, simulation.channels, reference.channels, {}).front();
+  return rating.cora ? std::optional(rating.cora->C) : std::nullopt;
 }
 
 /// Scores against the measured curves where there are any, in the layout of the paper's Table 3.
@@ -115,15 +100,20 @@ ReportTable test_table(const std::vector<ComparedRun>& runs) {
                     {"signal"},
                     {}};
   for (const std::string& label : labels_of(runs)) table.columns.push_back(label);
+  table.columns.push_back("mean ± population deviation");
   for (const RatedSignal& signal : rating_set({})) {
     std::vector<std::string> cells{signal.label};
+    std::vector<double> scores;
     for (const ComparedRun& run : runs) {
       std::optional<double> score;
       for (const SignalRating& r : run.analysis.summary.ratings) {
         if (r.signal.channel == signal.channel && r.cora) score = r.cora->C;
       }
+      if (score) scores.push_back(*score);
       cells.push_back(formatted("{:.3f}", score));
     }
+    const MeanDeviation all = mean_deviation(scores);
+    cells.push_back(scores.empty() ? "–" : fmt::format("{:.3f} ± {:.3f}", all.mean, all.deviation));
     table.rows.push_back(cells);
   }
   return table;
@@ -155,8 +145,8 @@ ReportTable mutual_table(const std::vector<ComparedRun>& runs) {
   for (const RatedSignal& signal : rating_set({})) {
     std::vector<std::string> cells{signal.label};
     for (const auto& [k, i] : pairs) {
-      cells.push_back(formatted("{:.3f}", cora_between(runs[k].analysis.channels,
-                                                       runs[i].analysis.channels, signal.channel)));
+      cells.push_back(formatted(
+          "{:.3f}", cora_between(runs[k].analysis.channels, runs[i].analysis.channels, signal)));
     }
     table.rows.push_back(cells);
   }

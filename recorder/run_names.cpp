@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
+#include "recorder/description.h"
 #include "recorder/extract.h"
 #include "recorder/signal.h"
 
@@ -12,13 +11,6 @@ namespace crosswalk::recording {
 namespace {
 
 using nlohmann::json;
-
-json described(const RunRecord& record, Role role) {
-  const auto found = record.description.find(role);
-  if (found == record.description.end()) return json::object();
-  json parsed = json::parse(found->second, nullptr, /*allow_exceptions=*/false);
-  return parsed.is_object() ? parsed : json::object();
-}
 
 std::vector<std::string> strings(const json& object, const char* key) {
   std::vector<std::string> out;
@@ -70,8 +62,8 @@ double seconds(std::int64_t t_ns) { return 1e-9 * static_cast<double>(t_ns); }
 
 RunNames run_names(const RunRecord& record) {
   RunNames names;
-  const json mb = described(record, Role::Mb);
-  const json fe = described(record, Role::Fe);
+  const json mb = description_of(record, Role::Mb);
+  const json fe = description_of(record, Role::Fe);
   names.bodies = strings(mb, "bodies");
   names.contact_pairs = strings(mb, "contact_pairs");
   names.regions = strings(fe, "regions");

@@ -1,5 +1,6 @@
 #include "recorder/run_rating.h"
 
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -107,6 +108,16 @@ std::optional<double> weighted_mean(const std::vector<SignalRating>& ratings, Ra
   }
   if (weights <= 0) return std::nullopt;
   return sum / weights;
+}
+
+MeanDeviation mean_deviation(const std::vector<double>& values) {
+  MeanDeviation out;
+  if (values.empty()) return out;
+  for (const double value : values) out.mean += value;
+  out.mean /= static_cast<double>(values.size());
+  for (const double value : values) out.deviation += std::pow(value - out.mean, 2);
+  out.deviation = std::sqrt(out.deviation / static_cast<double>(values.size()));
+  return out;
 }
 
 nlohmann::ordered_json to_json(const std::vector<SignalRating>& ratings) {

@@ -44,6 +44,12 @@ std::vector<SignalRating> rate_against_run(const std::vector<RatedSignal>& set,
 /// Weighted mean over the rated signals, weights normalised; nothing when none is rated.
 std::optional<double> weighted_mean(const std::vector<SignalRating>& ratings, RatingMethod method);
 
+/// Mean and population standard deviation, the form the published table uses.
+struct MeanDeviation {
+  double mean = 0, deviation = 0;
+};
+MeanDeviation mean_deviation(const std::vector<double>& values);
+
 nlohmann::ordered_json to_json(const std::vector<SignalRating>& ratings);
 
 }  // namespace crosswalk::recording

@@ -2,21 +2,13 @@
 
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
+#include "recorder/description.h"
 
 namespace crosswalk::recording {
 
 namespace {
 
 using nlohmann::json;
-
-/// The description of a node, an empty object when it is absent or damaged.
-json described(const RunRecord& record, Role role) {
-  const auto found = record.description.find(role);
-  if (found == record.description.end()) return json::object();
-  json parsed = json::parse(found->second, nullptr, false);
-  return parsed.is_object() ? parsed : json::object();
-}
 
 json member(const json& object, const char* key) {
   const auto found = object.find(key);
@@ -87,14 +79,14 @@ std::optional<Pose> head_pose(const RunRecord& record, std::int64_t t_ns) {
 }  // namespace
 
 Scene shapes_of(const RunRecord& record) {
-  const json mb = described(record, Role::Mb);
+  const json mb = description_of(record, Role::Mb);
   Scene scene;
   for (const json& name : member(mb, "bodies")) {
     scene.bodies.push_back(name.is_string() ? name.get<std::string>() : "");
   }
   add_ellipsoids(scene, mb);
   if (mb.contains("vehicle") && mb["vehicle"].is_object()) add_facets(scene, mb["vehicle"]);
-  add_head(scene, described(record, Role::Fe));
+  add_head(scene, description_of(record, Role::Fe));
   return scene;
 }
 

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
+
+#include "recorder/description.h"
 
 namespace crosswalk::recording {
 
@@ -21,10 +22,8 @@ double held(const FeWindow& w) {
 }
 
 std::optional<double> described_mass(const RunRecord& record) {
-  const auto found = record.description.find(Role::Fe);
-  if (found == record.description.end()) return std::nullopt;
-  const auto fe = nlohmann::json::parse(found->second, nullptr, false);
-  if (!fe.is_object() || !fe.contains("mass_kg") || !fe["mass_kg"].is_number()) return std::nullopt;
+  const nlohmann::json fe = description_of(record, Role::Fe);
+  if (!fe.contains("mass_kg") || !fe["mass_kg"].is_number()) return std::nullopt;
   return fe["mass_kg"].get<double>();
 }
 

@@ -91,11 +91,24 @@ ShellSection membrane_section(ShellLaw law, double thickness) {
   return section;
 }
 
+double series_shear_factor(const ShellSection& section) {
+  double stiff = 0, compliance = 0;
+  for (const ShellLayer& layer : section.layers) {
+    double share = 0;
+    for (const ShellPoint& point : layer.points) share += point.weight;
+    const double G = std::visit(
+        [](const auto& l) { return 0.5 * l.youngs_modulus / (1 + l.poisson_ratio); }, layer.law);
+    stiff += share * G;
+    compliance += share / G;
+  }
+  return std::min(5.0 / 6.0, 1 / (stiff * compliance));
+}
+
 ShellSection laminate(const std::vector<Ply>& plies) {
   CW_ASSERT(!plies.empty());
   ShellSection section;
   for (const Ply& ply : plies) section.thickness += ply.thickness;
-  double bottom = -0.5, stiff = 0, compliance = 0;
+  double bottom = -0.5;
   for (const Ply& ply : plies) {
     const double share = ply.thickness / section.thickness;
     ShellLayer layer{ply.law, gauss_points(ply.points)};
@@ -103,14 +116,10 @@ ShellSection laminate(const std::vector<Ply>& plies) {
       point.position = bottom + share * (0.5 + point.position);
       point.weight *= share;
     }
-    const double G = std::visit(
-        [](const auto& l) { return 0.5 * l.youngs_modulus / (1 + l.poisson_ratio); }, ply.law);
-    stiff += share * G;
-    compliance += share / G;
     bottom += share;
     section.layers.push_back(std::move(layer));
   }
-  section.shear_factor = std::min(5.0 / 6.0, 1 / (stiff * compliance));
+  section.shear_factor = series_shear_factor(section);
   return section;
 }
 

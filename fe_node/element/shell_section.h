@@ -64,6 +64,9 @@ struct Ply {
 /// shear stiffness is that of the plies in series, which a soft interlayer governs.
 ShellSection laminate(const std::vector<Ply>& plies);
 
+/// That of transverse shear in series over the layers, at most 5/6.
+double series_shear_factor(const ShellSection& section);
+
 double density_of(const ShellLaw& law);
 
 }  // namespace crosswalk::fe

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "fe_node/model_builder/layer_cards.h"
 #include "fe_node/model_builder/plastic_cards.h"
 
 namespace crosswalk::fe {
@@ -111,15 +112,17 @@ std::optional<ShellSection> shell_section(BuildContext& c, const Part& part) {
     return std::nullopt;
   }
   const double thickness = card->thickness[0] * c.units.length;
-  if (std::optional<ShellSection> glass = glass_section(c, *c.material_of(part), thickness))
-    return glass;
+  if (const auto* glass = std::get_if<mat::LaminatedGlass>(&c.material_of(part)->law))
+    return glass_section(c, part, *glass, *card);
   std::optional<ShellLaw> law = shell_law(c, *c.material_of(part));
-  if (!law) return std::nullopt;
+  const std::optional<std::vector<ShellPoint>> ruled = ruled_points(c, part, *card);
+  if (!law || !ruled) return std::nullopt;
   const int points = std::clamp(card->points, 1, 10);
   const ThicknessRule rule = points > 5 ? ThicknessRule::Lobatto : ThicknessRule::Gauss;
   ShellSection result = is_membrane(card->formulation)
                             ? membrane_section(*law, thickness)
                             : uniform_section(*law, thickness, points, rule);
+  if (!ruled->empty() && !is_membrane(card->formulation)) result.layers[0].points = *ruled;
   if (card->formulation != 2 && !is_membrane(card->formulation))
     c.note(fmt::format("part {}: shell formulation {} is computed as Belytschko-Tsay (2)",
                        part.id.value, card->formulation));

@@ -12,10 +12,6 @@ std::string card(const Material& material) {
   return fmt::format("*{} {}", material_keyword(material), material.id.value);
 }
 
-double hardening_modulus(double youngs, double tangent) {
-  return tangent > 0 && tangent < youngs ? youngs * tangent / (youngs - tangent) : 0;
-}
-
 /// What plasticity needs of a card, SI.
 struct PlasticCard {
   double youngs = 0, poisson = 0;
@@ -192,6 +188,10 @@ std::optional<SolidLaw> foam(BuildContext& c, const Material& material,
 
 }  // namespace
 
+double hardening_modulus(double youngs, double tangent) {
+  return tangent > 0 && tangent < youngs ? youngs * tangent / (youngs - tangent) : 0;
+}
+
 std::optional<SolidLaw> solid_law_of_matter(BuildContext& c, const Material& material) {
   const double density = material.density * c.units.density(), s = c.units.stress();
   if (const auto plastic = PlasticReader(c, material).read())
@@ -235,30 +235,6 @@ std::optional<ShellLaw> shell_law_of_matter(BuildContext& c, const Material& mat
                       plastic->yield,
                       plastic->kinematic_modulus,
                       plastic->failure_strain};
-}
-
-std::optional<ShellSection> glass_section(BuildContext& c, const Material& material,
-                                          double thickness) {
-  const auto* m = std::get_if<mat::LaminatedGlass>(&material.law);
-  if (m == nullptr) return std::nullopt;
-  const double density = material.density * c.units.density(), s = c.units.stress();
-  std::vector<double> flags = m->layer_is_polymer;
-  if (flags.empty()) flags = {0, 1, 0};
-  std::vector<Ply> plies;
-  for (double is_polymer : flags) {
-    ShellPlastic law;
-    law.density = density;
-    const bool polymer = is_polymer > 0.5;
-    law.youngs_modulus = (polymer ? m->polymer_youngs : m->glass_youngs) * s;
-    law.poisson_ratio = polymer ? m->polymer_poisson : m->glass_poisson;
-    const double yield = (polymer ? m->polymer_yield : m->glass_yield) * s;
-    law.yield = YieldStress(HardeningCurve::linear(
-        yield, hardening_modulus(law.youngs_modulus,
-                                 (polymer ? m->polymer_tangent : m->glass_tangent) * s)));
-    if (!polymer) law.failure_strain = m->glass_failure_strain;
-    plies.push_back({law, thickness / static_cast<double>(flags.size()), 1});
-  }
-  return laminate(plies);
 }
 
 }  // namespace crosswalk::fe

@@ -12,8 +12,7 @@ namespace crosswalk::fe {
 /// Nothing when the card is none of theirs, or after a problem.
 std::optional<SolidLaw> solid_law_of_matter(BuildContext& context, const Material& material);
 std::optional<ShellLaw> shell_law_of_matter(BuildContext& context, const Material& material);
-/// *MAT_LAMINATED_GLASS: its layers by the flags, equal thicknesses where no rule says otherwise.
-std::optional<ShellSection> glass_section(BuildContext& context, const Material& material,
-                                          double thickness);
+/// H = E Et / (E - Et); 0 when there is no tangent.
+double hardening_modulus(double youngs, double tangent);
 
 }  // namespace crosswalk::fe

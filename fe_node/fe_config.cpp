@@ -1,5 +1,6 @@
 #include "fe_node/fe_config.h"
 
+#include "common/neck_landmarks.h"
 #include "common/units.h"
 #include "fe_node/generate/generate_config.h"
 
@@ -18,6 +19,11 @@ generate::Fidelity fidelity_of(Fidelity fidelity) {
   return generate::Fidelity::Coarse;
 }
 
+generate::NeckFit neck_fit(const BodyDescription& body) {
+  const NeckLandmarks marks = neck_landmarks(body);
+  return {marks.condyles - marks.base, marks.head_centre - marks.base};
+}
+
 HeadNeckConfig read_head_neck(ConfigTable table, const Anthropometry& a, Fidelity fidelity) {
   HeadNeckConfig config;
   const std::string deck = table.text_or(
@@ -29,8 +35,8 @@ HeadNeckConfig read_head_neck(ConfigTable table, const Anthropometry& a, Fidelit
     config.spec = generate::read_head_neck_spec(table, a, fidelity_of(fidelity));
   if (!config.is_generated) {
     config.deck = table.file("deck", "Path of a keyword deck, from the scenario's folder.");
-    const std::string units = table.text_or(
-        "units", "", "Unit system of the deck, such as mm-t-s, if it states none.");
+    const std::string units =
+        table.text_or("units", "", "Unit system of the deck, such as mm-t-s, if it states none.");
     if (!units.empty()) {
       config.units = unit_system_from(units);
       if (config.units == UnitSystem::Unknown)
@@ -61,6 +67,7 @@ FeConfig read_fe_config(ConfigDocument& document, const Scenario& scenario) {
   config.body = read_body_description(subject);
   config.head_neck = read_head_neck(root.table("head_neck", "The finite-element head and neck."),
                                     config.body.measures, scenario.fidelity);
+  if (config.body.find_segment("head") >= 0) config.head_neck.spec.fit = neck_fit(config.body);
   config.interfaces = scenario.interfaces;
   std::vector<std::string> followers;
   for (const InterfaceSpec& interface : scenario.interfaces)

@@ -8,10 +8,12 @@
 
 #include "common/error.h"
 #include "common/log.h"
+#include "common/neck_landmarks.h"
 #include "fe_node/contact/rigid_surface.h"
 #include "fe_node/contact/surface.h"
 #include "fe_node/deck/deck_writer.h"
 #include "fe_node/deck/keyword_reader.h"
+#include "fe_node/generate/deck_export.h"
 #include "fe_node/output/field_writer.h"
 #include "fe_node/output/state_bytes.h"
 
@@ -80,7 +82,7 @@ FeNode::FeNode(FeConfig config, int threads, std::filesystem::path folder)
   if (config_.head_neck.is_generated) {
     const generate::HeadNeck made = generate::build_head_neck(config_.head_neck.spec);
     joint_ = made.landmarks.c7_t1;
-    deck = generate::generate_head_neck(config_.head_neck.spec);
+    deck = generate::to_deck(made.draft, config_.head_neck.spec.units);
   } else {
     joint_ = config_.head_neck.joint;
     deck = require_runnable(read_deck(config_.head_neck.deck), MissingPolicy::Refuse);
@@ -176,10 +178,7 @@ std::vector<InterfaceBody> FeNode::place(std::vector<InterfaceBody> bodies) {
   Pose X_WD;
   Twist V_WD;
   if (torso != bodies.end()) {
-    const BodyDescription& body = config_.body;
-    const Segment& trunk = body.segments[body.find_segment("torso_up")];
-    const Segment& neck = body.segments[body.find_segment("neck_low")];
-    const Vec3 p_TD = neck.joint_centre - trunk.com - joint_;
+    const Vec3 p_TD = neck_landmarks(config_.body).base_on_torso - joint_;
     X_WD = torso->motion.X_WB * Pose{Quat::Identity(), p_TD};
     V_WD = torso->motion.V_WB.shifted(X_WD.p - torso->motion.X_WB.p);
   }

@@ -38,7 +38,10 @@ Resolution resolution_of(Fidelity fidelity) {
 
 // Section of the neck: depth to breadth 1.05; its centre lies a little before the spine [E].
 constexpr double kDepthToBreadth = 1.05, kCentreBeforeSpine = -0.003;
-constexpr double kFleshBottom = 0.0;      // z of the lowest flesh nodes in N, reference size, m
+constexpr double kFleshBottom = 0.0;  // z of the lowest flesh nodes in N, reference size, m
+constexpr double kReferenceHeadCentreX = 5, kReferenceHeadCentreZ = 26;  // of the tragion, mm
+constexpr double kHeadPlace = 1e-4;  // m, how near the head's centre comes to its place
+constexpr int kMostPasses = 4;
 constexpr double kOcciputRadius = 0.026;  // of the rigid skull base round the condyles, m [E]
 
 /// Spine centre line x over z in N.
@@ -54,15 +57,17 @@ double spine_line(const Spine& spine, double z) {
 
 class Assembly {
  public:
-  explicit Assembly(const HeadNeckSpec& spec)
+  /// `head_offset`: the head's mass centre from the tragion, where a fit asks for its place.
+  Assembly(const HeadNeckSpec& spec, const Vec3& head_offset)
       : spec_(spec), resolution_(resolution_of(spec.fidelity)), shape_(spec.head) {
-    const double s = 1e-3 * spec.stature / kReferenceStature;
     Landmarks& marks = result_.landmarks;
-    marks.condyles = Vec3(s * kCondyleX, 0, s * kCondyleZ);
-    marks.tragion = marks.condyles - Vec3(1e-3 * kCondyleFrankfurtX * shape_.scale().x(), 0,
-                                          1e-3 * kCondyleFrankfurtZ * shape_.scale().z());
-    spine_ = spine_of(spec.stature, marks.tragion);
-    marks.c7_t1 = spine_.disc_centre(C7);
+    marks.c7_t1 = neck_base(spec.stature);
+    const Vec3 neck = spec.fit ? spec.fit->condyles : reference_neck(spec.stature);
+    marks.condyles = marks.c7_t1 + neck;
+    const Vec3 condyles_frankfurt(1e-3 * kCondyleFrankfurtX, 0, 1e-3 * kCondyleFrankfurtZ);
+    marks.tragion = marks.condyles - shape_.scale().cwiseProduct(condyles_frankfurt);
+    if (spec.fit) marks.tragion = marks.c7_t1 + spec.fit->head_centre - head_offset;
+    spine_ = spine_of(spec.stature, neck, marks.tragion, shape_.scale());
   }
 
   HeadNeck run() {
@@ -72,7 +77,7 @@ class Assembly {
     add_spine(draft(), spine_, resolution_.spine);
     add_clavicle_blocks();
     attach_flesh();
-    add_ligaments(draft(), spine_, shape_.scale());
+    add_ligaments(draft(), spine_);
     add_muscles(draft(), spine_, shape_.scale(),
                 {.area_factor = spec_.muscle_area_factor, .activation = spec_.activation});
     add_sets();
@@ -233,7 +238,20 @@ class Assembly {
 
 }  // namespace
 
-HeadNeck build_head_neck(const HeadNeckSpec& spec) { return Assembly(spec).run(); }
+// The mass centre from the tragion depends hardly on where the head stands (the face ends at the
+// neck), so two or three passes settle it.
+HeadNeck build_head_neck(const HeadNeckSpec& spec) {
+  Vec3 offset(1e-3 * kReferenceHeadCentreX, 0, 1e-3 * kReferenceHeadCentreZ);
+  HeadNeck model = Assembly(spec, offset).run();
+  for (int pass = 0; spec.fit && pass < kMostPasses; ++pass) {
+    const Landmarks& marks = model.landmarks;
+    const Vec3 wanted = marks.c7_t1 + spec.fit->head_centre;
+    if ((marks.head_centre - wanted).norm() < kHeadPlace) break;
+    offset = marks.head_centre - marks.tragion;
+    model = Assembly(spec, offset).run();
+  }
+  return model;
+}
 
 Deck generate_head_neck(const HeadNeckSpec& spec) {
   return to_deck(build_head_neck(spec).draft, spec.units);

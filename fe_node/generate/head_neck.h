@@ -6,6 +6,7 @@
 // and T3) and the two clavicles.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,18 @@ namespace crosswalk::fe::generate {
 
 enum class Fidelity { Coarse, Medium, Fine };
 
+/// Where the neck has to end and the head's mass to lie, from the neck's base (C7/T1 joint), m.
+struct NeckFit {
+  Vec3 condyles = Vec3::Zero();
+  Vec3 head_centre = Vec3::Zero();
+};
+
 struct HeadNeckSpec {
   Fidelity fidelity = Fidelity::Coarse;
   HeadMeasures head;
   double neck_circumference = 0.390;  ///< m
   double stature = 1.753;             ///< m
+  std::optional<NeckFit> fit;         ///< none: neck and head stand as stature has them
   MassTarget mass;
   double muscle_area_factor = 1.2;  ///< on the female baseline areas
   double activation = 0;            ///< of all muscles, 0 to 1

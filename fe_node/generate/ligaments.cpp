@@ -61,8 +61,8 @@ constexpr double kPivotStiffness = 0.8e6;
 
 class Builder {
  public:
-  Builder(ModelDraft& draft, const Spine& spine, const Vec3& head_scale)
-      : draft_(draft), spine_(spine), s_(1e-3 * spine.scale), head_scale_(head_scale) {}
+  Builder(ModelDraft& draft, const Spine& spine)
+      : draft_(draft), spine_(spine), s_(1e-3 * spine.scale) {}
 
   void run() {
     for (int level = C2; level <= T1; ++level) add_level(static_cast<Level>(level));
@@ -81,9 +81,7 @@ class Builder {
 
   /// Point in a body's axes, reference mm; for C0 in the Frankfurt frame of the reference head.
   End at(Level level, double x, double y, double z) const {
-    const Vec3 local = level == C0 ? Vec3(1e-3 * Vec3(x, y, z).cwiseProduct(head_scale_))
-                                   : Vec3(s_ * Vec3(x, y, z));
-    return {level, spine_[level].X_NB * local};
+    return {level, spine_[level].at_reference(x, y, z)};
   }
   /// Point in body lengths already scaled, m.
   End on(Level level, double x, double y, double z) const {
@@ -163,7 +161,7 @@ class Builder {
   void add_upper() {
     const SpineBody& axis = spine_[C2];
     const double back_of_axis = -0.5 * axis.depth() / s_, front_of_axis = 0.5 * axis.depth() / s_;
-    const double dens_tip = 0.5 * axis.height / s_ + 15.5;
+    const double dens_tip = 0.5 * axis.height / axis.size.z() + kDensHeight;
     const double lamina = back_of_axis - axis.canal_depth / s_;
     Ends aaom, paom, aaam, paam, c0c1, c1c2, tectorial;
     for (const double y : {-8.0, 0.0, 8.0}) {
@@ -255,7 +253,6 @@ class Builder {
   ModelDraft& draft_;
   const Spine& spine_;
   double s_;
-  Vec3 head_scale_;
   int ligaments_ = 0;
   int contacts_ = 0;
   int facet_part_ = 0;
@@ -263,8 +260,6 @@ class Builder {
 
 }  // namespace
 
-void add_ligaments(ModelDraft& draft, const Spine& spine, const Vec3& head_scale) {
-  Builder(draft, spine, head_scale).run();
-}
+void add_ligaments(ModelDraft& draft, const Spine& spine) { Builder(draft, spine).run(); }
 
 }  // namespace crosswalk::fe::generate

@@ -10,6 +10,6 @@
 
 namespace crosswalk::fe::generate {
 
-void add_ligaments(ModelDraft& draft, const Spine& spine, const Vec3& head_scale);
+void add_ligaments(ModelDraft& draft, const Spine& spine);
 
 }  // namespace crosswalk::fe::generate

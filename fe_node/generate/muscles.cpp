@@ -112,7 +112,7 @@ class Builder {
     if (end.level > 0) {
       p = vertebra_point(end, side, part);
     } else if (end.site <= Site::JugularProcess) {
-      p = spine_[C0].X_NB * Vec3(1e-3 * skull_point(end.site).cwiseProduct(head_scale_));
+      p = spine_.tragion + 1e-3 * skull_point(end.site).cwiseProduct(head_scale_);
       p.y() *= side;
     } else {
       const GirdlePoint point = girdle_point(end.site);
@@ -146,8 +146,7 @@ class Builder {
 
   /// The hyoid hangs on the mandible: the nearest node of the face block.
   int hyoid(int side) const {
-    const Vec3 wanted =
-        spine_[C0].X_NB * Vec3(1e-3 * Vec3(45, side * 12, -75).cwiseProduct(head_scale_));
+    const Vec3 wanted = spine_.tragion + 1e-3 * Vec3(45, side * 12, -75).cwiseProduct(head_scale_);
     int best = -1;
     double least = std::numeric_limits<double>::infinity();
     for (const Hex& hex : draft_.mesh.hexes) {

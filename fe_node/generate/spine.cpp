@@ -83,7 +83,7 @@ void add_atlas(MeshDraft& draft, const Spine& spine) {
 void add_dens(MeshDraft& draft, const Spine& spine) {
   const SpineBody& body = spine[C2];
   const double r = 0.004 * spine.scale, top = 0.5 * body.height;
-  add_box(draft, body, {-r, -r, top}, {r, r, top + 0.0155 * spine.scale}, {1, 1, 2});
+  add_box(draft, body, {-r, -r, top}, {r, r, top + kDensHeight * body.size.z()}, {1, 1, 2});
 }
 
 /// Disc moduli [E]: one homogenised solid, of the order of isolated discs in compression and shear
@@ -118,11 +118,32 @@ double part_volume(const MeshDraft& mesh, int part) {
   return sum;
 }
 
-SpineBody body_of(const VertebraData& data, int part, double scale) {
-  const double s = 1e-3 * scale, tilt = data.tilt_deg * kDegree;
+/// Reference mm in N to m: by stature up to the neck's base, stretched and sheared above it.
+struct ChainMap {
+  double scale = 1;  ///< of stature
+  Vec3 base_mm = Vec3::Zero();
+  double along_z = 1e-3, shear = 0;  ///< m of z and of x per mm of z, above the base
+  double lean = 0;                   ///< rad, forward tilt that the shear adds
+
+  Vec3 operator()(double x, double z) const {
+    const double s = 1e-3 * scale, above = z - base_mm.z();
+    if (above <= 0) return {s * x, 0, s * z};
+    return {s * x + shear * above, 0, s * base_mm.z() + along_z * above};
+  }
+  Vec3 size(double z) const {
+    const double s = 1e-3 * scale;
+    return {s, s, z > base_mm.z() ? along_z : s};
+  }
+};
+
+SpineBody body_of(const VertebraData& data, int part, const ChainMap& map) {
+  const double s = 1e-3 * map.scale, scale = map.scale;
+  const bool is_neck = data.z > map.base_mm.z();
+  const double tilt = data.tilt_deg * kDegree + (is_neck ? map.lean : 0);
   SpineBody body{.part = part, .name = data.name};
-  body.X_NB = {exp_rotation(Vec3(0, tilt, 0)), Vec3(s * data.x, 0, s * data.z)};
-  body.height = s * data.height;
+  body.X_NB = {exp_rotation(Vec3(0, tilt, 0)), map(data.x, data.z)};
+  body.size = map.size(data.z);
+  body.height = body.size.z() * data.height;
   body.upper_width = s * data.upper_width;
   body.lower_width = s * data.lower_width;
   body.upper_depth = s * data.upper_depth;
@@ -133,6 +154,24 @@ SpineBody body_of(const VertebraData& data, int part, double scale) {
   body.facet_angle = data.facet_deg * kDegree;
   body.mass = data.mass_kg * scale * scale * scale;
   return body;
+}
+
+/// Middle between the endplates of C7 and T1 of the reference chain, mm.
+Vec3 reference_base() {
+  const auto endplate = [](const VertebraData& v, double end) -> Vec3 {
+    const double tilt = v.tilt_deg * kDegree;
+    return Vec3(v.x, 0, v.z) + end * v.height * Vec3(std::sin(tilt), 0, std::cos(tilt));
+  };
+  return 0.5 * (endplate(kVertebrae[C7 - C2], -0.5) + endplate(kVertebrae[T1 - C2], 0.5));
+}
+
+ChainMap chain_map(double stature, const Vec3& base_to_condyles) {
+  ChainMap map{.scale = stature / kReferenceStature, .base_mm = reference_base()};
+  const double height = kCondyleZ - map.base_mm.z(), forward = kCondyleX - map.base_mm.x();
+  map.along_z = base_to_condyles.z() / height;
+  map.shear = (base_to_condyles.x() - 1e-3 * map.scale * forward) / height;
+  map.lean = std::atan2(map.shear, map.along_z);
+  return map;
 }
 
 }  // namespace
@@ -161,15 +200,26 @@ Vec3 Spine::facet_normal(Level upper) const {
   return l.X_NB.R() * Vec3(-std::sin(l.facet_angle), 0, std::cos(l.facet_angle));
 }
 
-Spine spine_of(double stature, const Vec3& tragion) {
-  Spine spine{.scale = stature / kReferenceStature, .bodies = {}};
+Vec3 neck_base(double stature) { return 1e-3 * stature / kReferenceStature * reference_base(); }
+
+Vec3 reference_neck(double stature) {
+  return 1e-3 * stature / kReferenceStature * (Vec3(kCondyleX, 0, kCondyleZ) - reference_base());
+}
+
+Spine spine_of(double stature, const Vec3& base_to_condyles, const Vec3& tragion,
+               const Vec3& head_scale) {
+  const ChainMap map = chain_map(stature, base_to_condyles);
+  Spine spine{.scale = map.scale, .tragion = tragion, .bodies = {}};
   const double s = 1e-3 * spine.scale;
   SpineBody occiput{.part = part::kFirstVertebra - 10, .name = "C0"};
-  occiput.X_NB.p = tragion;
+  occiput.size = 1e-3 * head_scale;
+  occiput.X_NB.p = map(kCondyleX, kCondyleZ) -
+                   occiput.size.cwiseProduct(Vec3(kCondyleFrankfurtX, 0, kCondyleFrankfurtZ));
   spine.bodies.push_back(occiput);
   SpineBody atlas{.part = part::kFirstVertebra, .name = "C1"};
-  atlas.X_NB.p = {s * kAtlas.x, 0, s * kAtlas.z};
-  atlas.height = s * 10;
+  atlas.X_NB = {exp_rotation(Vec3(0, map.lean, 0)), map(kAtlas.x, kAtlas.z)};
+  atlas.size = map.size(kAtlas.z);
+  atlas.height = 10 * atlas.size.z();
   atlas.upper_depth = atlas.lower_depth = s * kAtlas.ring_depth;
   atlas.upper_width = atlas.lower_width = 2 * s * kAtlas.ring_half_width;
   atlas.transverse = s * kAtlas.transverse;
@@ -178,7 +228,7 @@ Spine spine_of(double stature, const Vec3& tragion) {
   int part = part::kFirstVertebra + 10;
   for (const VertebraData& data : kVertebrae) {
     const bool in_block = data.z < -1;  // T2 and T3
-    spine.bodies.push_back(body_of(data, in_block ? part::kBlockTorsoUp : part, spine.scale));
+    spine.bodies.push_back(body_of(data, in_block ? part::kBlockTorsoUp : part, map));
     part += 10;
   }
   return spine;

@@ -3,6 +3,10 @@
 //
 // T2 and T3 belong to the torso block. The occiput is a rigid patch of the skull base that carries
 // condyles, ligaments and muscle origins.
+//
+// Widths, depths and everything below the C7-T1 disc grow with stature. The chain above it is
+// stretched along z and sheared along x until its condyles lie where the subject has them; the
+// vertebrae take their heights and tilts from the same map.
 #pragma once
 
 #include <string>
@@ -25,7 +29,12 @@ struct SpineBody {
   double canal_depth = 0, spinous = 0, transverse = 0;
   double facet_angle = 0;  ///< rad
   double mass = 0;
+  Vec3 size = Vec3::Constant(1e-3);  ///< own axes: m per reference mm
   Vec3 at(double x, double y, double z) const { return X_NB * Vec3(x, y, z); }
+  /// The same for a point of the reference vertebra, mm.
+  Vec3 at_reference(double x, double y, double z) const {
+    return X_NB * Vec3(size.cwiseProduct(Vec3(x, y, z)));
+  }
   double depth() const { return 0.5 * (upper_depth + lower_depth); }
   double width() const { return 0.5 * (upper_width + lower_width); }
   /// Tips of the processes, N.
@@ -35,6 +44,7 @@ struct SpineBody {
 
 struct Spine {
   double scale = 1;               ///< stature over that of the landmarks
+  Vec3 tragion = Vec3::Zero();    ///< origin of the Frankfurt frame, N
   std::vector<SpineBody> bodies;  ///< by Level
   const SpineBody& operator[](Level level) const { return bodies[level]; }
   /// Centre of the disc below a vertebra, N.
@@ -44,8 +54,15 @@ struct Spine {
   Vec3 facet_normal(Level upper) const;
 };
 
-/// Positions and sizes for a stature (m); the occiput's frame is the Frankfurt frame at `tragion`.
-Spine spine_of(double stature, const Vec3& tragion);
+/// Centre of the C7-T1 disc, N: the multibody C7/T1 joint.
+Vec3 neck_base(double stature);
+/// Condyles from the neck's base by stature alone.
+Vec3 reference_neck(double stature);
+/// Positions and sizes for a stature (m) and the way from the neck's base to the condyles. The
+/// occiput's frame is that Frankfurt frame of the reference head whose condyles lie there, so that
+/// what hangs on the skull base stays with them; `head_scale` is that of the head.
+Spine spine_of(double stature, const Vec3& base_to_condyles, const Vec3& tragion,
+               const Vec3& head_scale);
 
 struct SpineResolution {
   int plan = 4;         ///< cells across an endplate, even

@@ -47,6 +47,8 @@ struct AtlasData {
 };
 inline constexpr AtlasData kAtlas{};
 
+inline constexpr double kDensHeight = 15.5;  ///< above the body of C2, mm [L]
+
 /// Occipital condyle axis in N, mm [L: NBDL anatomy, medium].
 inline constexpr double kCondyleX = 14, kCondyleZ = 138.5;
 /// The same axis in the Frankfurt frame of the reference head, mm.

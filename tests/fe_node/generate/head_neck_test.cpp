@@ -8,11 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include "common/neck_landmarks.h"
 #include "common/units.h"
 #include "fe_node/deck/deck_writer.h"
 #include "fe_node/deck/keyword_reader.h"
 #include "fe_node/generate/part_ids.h"
 #include "fe_node/generate/quality.h"
+#include "tests/common/subject_fixture.h"
 
 namespace crosswalk::fe::generate {
 namespace {
@@ -40,22 +42,41 @@ std::pair<double, double> worst(const HeadNeckSpec& spec) {
   return result;
 }
 
+/// The specification that a scenario with this subject gives.
+HeadNeckSpec spec_of_subject(const std::string& subject) {
+  const BodyDescription body = load_subject(subject);
+  const Anthropometry& a = body.measures;
+  const NeckLandmarks marks = neck_landmarks(body);
+  HeadNeckSpec spec;
+  spec.head = {a.head_length, a.head_breadth, a.head_to_chin_height};
+  spec.neck_circumference = a.neck_circumference;
+  spec.stature = a.standing_height;
+  spec.fit = NeckFit{marks.condyles - marks.base, marks.head_centre - marks.base};
+  return spec;
+}
+
 TEST(HeadNeck, ElementsOfTheTestedSubjectsAreWithinTheLimits) {
-  struct Subject {
-    HeadMeasures head;
-    double circumference, stature;
-  };
-  const Subject subjects[] = {{{0.185, 0.161, 0.2085}, 0.452, 1.795},  // [yu2020, Table 2]
-                              {{0.205, 0.157, 0.2385}, 0.352, 1.870},
-                              {{0.198, 0.158, 0.228}, 0.445, 1.780}};
-  for (const Subject& subject : subjects) {
-    HeadNeckSpec spec = untrimmed();
-    spec.head = subject.head;
-    spec.neck_circumference = subject.circumference;
-    spec.stature = subject.stature;
-    const auto [jacobian, aspect] = worst(spec);
-    EXPECT_GT(jacobian, kMinScaledJacobian) << spec.head.length;
-    EXPECT_LT(aspect, kMaxAspect) << spec.head.length;
+  for (const char* subject : {"male_50", "v2370", "v2371", "v2374"}) {
+    const auto [jacobian, aspect] = worst(spec_of_subject(subject));
+    EXPECT_GT(jacobian, kMinScaledJacobian) << subject;
+    EXPECT_LT(aspect, kMaxAspect) << subject;
+  }
+}
+
+TEST(HeadNeck, CondylesAndHeadCentreLieWhereTheMultibodySubjectHasThem) {
+  for (const char* subject : {"male_50", "v2370", "v2371", "v2374"}) {
+    const HeadNeckSpec spec = spec_of_subject(subject);
+    const HeadNeck model = build_head_neck(spec);
+    const Landmarks& marks = model.landmarks;
+    EXPECT_LT((marks.condyles - marks.c7_t1 - spec.fit->condyles).norm(), 1e-12) << subject;
+    EXPECT_LT((marks.head_centre - marks.c7_t1 - spec.fit->head_centre).norm(), 1e-4) << subject;
+    // The pivot of occiput and atlas is at those condyles: four struts meet there.
+    int meeting = 0;
+    for (const Line& line : model.draft.mesh.lines)
+      if (line.part == part::kFirstJointStrut &&
+          (model.draft.mesh.nodes[line.to] - marks.condyles).norm() < 1e-9)
+        ++meeting;
+    EXPECT_EQ(meeting, 4) << subject;
   }
 }
 

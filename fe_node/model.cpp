@@ -8,7 +8,6 @@
 namespace crosswalk::fe {
 namespace {
 
-/// `width` numbers per corner and lane group: 3 axes of a force or of a moment.
 CornerTable make_corner_table(const Model& model, const std::vector<std::size_t>& offsets,
                               bool moments_only) {
   const int node_count = model.mesh.node_count();
@@ -21,9 +20,7 @@ CornerTable make_corner_table(const Model& model, const std::vector<std::size_t>
       for (int element = 0; element < block.element_count(); ++element)
         for (int corner = 0; corner < block.corners(); ++corner) {
           const int group = element / kLanes, lane = element % kLanes;
-          const std::size_t slot =
-              offsets[b] + static_cast<std::size_t>(group * block.corners() + corner) * 3 * kLanes +
-              lane;
+          const std::size_t slot = offsets[b] + block.corner_slot(group, corner, lane);
           visit(block.node(group, corner, lane), slot);
         }
     }
@@ -43,8 +40,7 @@ void place_offsets(Model& model) {
   for (const auto& block : model.blocks) {
     model.force_offset.push_back(force);
     model.moment_offset.push_back(moment);
-    const std::size_t size =
-        static_cast<std::size_t>(block->group_count()) * block->corners() * 3 * kLanes;
+    const std::size_t size = block->corner_array_size();
     force += size;
     if (block->has_moments()) moment += size;
   }

@@ -116,12 +116,11 @@ void nodal_loads(const Model& model, State& state, Scratch& scratch) {
 }
 
 Vec3 gather(const CornerTable& table, const double* corners, int node) {
-  Vec3 sum = Vec3::Zero();
-  for (int k = table.begin[node]; k < table.begin[node + 1]; ++k) {
-    const double* corner = corners + table.slot[k];
-    sum += Vec3(corner[0], corner[kLanes], corner[2 * kLanes]);
-  }
-  return sum;
+  using Corner = Eigen::Map<const Eigen::Vector4d, Eigen::Aligned32>;
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  for (int k = table.begin[node]; k < table.begin[node + 1]; ++k)
+    sum += Corner(corners + table.slot[k]);
+  return sum.head<3>();
 }
 
 /// Every node adds its corners in the order of the table: the same bits for any number of threads.

@@ -27,16 +27,4 @@ Lanes ElementBlock::lane_mask(int group) const {
   return mask;
 }
 
-NodeLanes load_nodes(std::span<const NodeRecord> nodes, const int* index) {
-  NodeLanes out;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const NodeRecord& node = nodes[index[lane]];
-    for (int axis = 0; axis < 3; ++axis) {
-      out.x[axis][lane] = node.x[axis];
-      out.v[axis][lane] = node.v[axis];
-    }
-  }
-  return out;
-}
-
 }  // namespace crosswalk::fe

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/spatial.h"
+#include "fe_node/element/lane_transpose.h"
 #include "fe_node/material/lanes.h"
 #include "fe_node/mesh/mesh.h"
 #include "fe_node/mesh/node_record.h"
@@ -71,6 +72,11 @@ class ElementBlock {
   int node(int group, int corner, int lane) const {
     return nodes_[static_cast<std::size_t>(group * corners_ + corner) * kLanes + lane];
   }
+  std::size_t corner_slot(int group, int corner, int lane) const {
+    return (static_cast<std::size_t>(group * corners_ + corner) * kLanes + lane) * kCornerStride;
+  }
+  /// Doubles of a corner force array of this block.
+  std::size_t corner_array_size() const { return corner_slot(group_count(), 0, 0); }
   /// True when corners also carry moments (shells, beams).
   virtual bool has_moments() const { return false; }
   /// Numbers per lane group in the history array (a multiple of kLanes).
@@ -86,7 +92,8 @@ class ElementBlock {
   virtual double density() const = 0;
 
   /// Forces of groups [first, last). `history` and `corner_forces` belong to the whole block:
-  /// corner_forces[((group * corners + corner) * 3 + axis) * kLanes + lane]; moments likewise.
+  /// corner_slot(group, corner, lane) is the place of the x component, y and z
+  /// follow; moments likewise. See store_corner().
   virtual void forces(const StepContext& step, std::span<double> history,
                       std::span<double> corner_forces, std::span<double> corner_moments, int first,
                       int last, BlockSums& sums) const = 0;
@@ -113,12 +120,5 @@ class ElementBlock {
   std::vector<int> mesh_elements_;
   std::vector<int> nodes_;
 };
-
-/// Lane `l` of the result is component-wise the record of node index[l]: position in x, velocity in
-/// v.
-struct NodeLanes {
-  Lanes x[3], v[3];
-};
-NodeLanes load_nodes(std::span<const NodeRecord> nodes, const int* index);
 
 }  // namespace crosswalk::fe

@@ -141,9 +141,8 @@ void add_to_sums(const HexAnswer<Lanes>& answer, const Lanes& mask, const StepCo
 
 void store_corner_forces(const HexAnswer<Lanes>& answer, double* corner_forces) {
   for (int node = 0; node < 8; ++node)
-    for (int i = 0; i < 3; ++i)
-      Eigen::Map<Lanes, Eigen::Aligned64>(corner_forces + (node * 3 + i) * kLanes) =
-          answer.force[node][i];
+    store_corner(answer.force[node][0], answer.force[node][1], answer.force[node][2],
+                 corner_forces + node * kLanes * kCornerStride);
 }
 
 std::unique_ptr<ElementBlock> make_hex8_block(const Mesh& mesh, int part, std::vector<int> elements,

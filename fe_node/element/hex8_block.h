@@ -48,14 +48,16 @@ class Hex8Block final : public ElementBlock {
   }
   double density() const override { return law_.density; }
 
-  void forces(const StepContext& step, std::span<double> history, std::span<double> corner_forces,
-              std::span<double> /*corner_moments*/, int first, int last,
-              BlockSums& sums) const override {
+  // Flattened: the compiler otherwise leaves lane arithmetic of so large a function in calls.
+  [[gnu::flatten]] void forces(const StepContext& step, std::span<double> history,
+                               std::span<double> corner_forces,
+                               std::span<double> /*corner_moments*/, int first, int last,
+                               BlockSums& sums) const override {
     for (int group = first; group < last; ++group) {
       const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));
       const HexAnswer<Lanes> answer = hex8_forces(shapes_.groups[group], nodes, law_, controls_,
                                                   step.dt, group_history(history, group));
-      store_corner_forces(answer, corner_forces.data() + std::size_t{24} * kLanes * group);
+      store_corner_forces(answer, corner_forces.data() + corner_slot(group, 0, 0));
       add_to_sums(answer, lane_mask(group), step, group * kLanes, element_count(), sums);
     }
   }

@@ -65,11 +65,9 @@ class LineBlock final : public ElementBlock {
       sums.internal += work;
 
       const Vec3 pull = length > 0 ? Vec3(answer.force / length * span) : Vec3::Zero();
-      double* corner = corner_forces.data() + std::size_t{6} * kLanes * (e / kLanes) + e % kLanes;
-      for (int axis = 0; axis < 3; ++axis) {
-        corner[axis * kLanes] = pull[axis];
-        corner[(axis + 3) * kLanes] = -pull[axis];
-      }
+      for (int corner = 0; corner < 2; ++corner)
+        Eigen::Map<Vec3>{corner_forces.data() + corner_slot(e / kLanes, corner, e % kLanes)} =
+            corner == 0 ? pull : Vec3(-pull);
       if (!(length >= 0) || !std::isfinite(answer.force)) {
         if (sums.inverted_element < 0) sums.inverted_element = e;
         sums.inverted_jacobian = length;

@@ -251,9 +251,7 @@ void ShellBlock<kCorners>::add_hourglass(const ShellShape<kCorners>& middle,
 }
 
 inline void store(const Lanes3& a, const Lanes& factor, double* to) {
-  Eigen::Map<Lanes>{to} = a.x * factor;
-  Eigen::Map<Lanes>{to + kLanes} = a.y * factor;
-  Eigen::Map<Lanes>{to + 2 * kLanes} = a.z * factor;
+  store_corner(a.x * factor, a.y * factor, a.z * factor, to);
 }
 
 template <int kCorners>
@@ -297,7 +295,7 @@ void ShellBlock<kCorners>::forces(const StepContext& step, std::span<double> his
         add_hourglass(middle, end, v, spin, mass, step.dt, h, force, moment, dissipated);
     }
     for (int i = 0; i < kCorners; ++i) {
-      const std::size_t slot = static_cast<std::size_t>(group * kCorners + i) * 3 * kLanes;
+      const std::size_t slot = corner_slot(group, i, 0);
       store(end.frame.to_world(force[i]), h[kAlive], corner_forces.data() + slot);
       if (is_bending) store(end.frame.to_world(moment[i]), h[kAlive], corner_moments.data() + slot);
     }

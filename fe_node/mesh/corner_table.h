@@ -8,7 +8,7 @@ namespace crosswalk::fe {
 
 struct CornerTable {
   std::vector<int> begin;           ///< node_count + 1 offsets into `slot`
-  std::vector<std::uint32_t> slot;  ///< index of the x component; y and z follow at + 8 and + 16
+  std::vector<std::uint32_t> slot;  ///< index of the x component; y and z follow
 };
 
 }  // namespace crosswalk::fe

@@ -77,8 +77,7 @@ inline NodalLoads loads_after(const Model& model, const PlateMotion& motion) {
     nodes[n].set_position(model.mesh.position[n] + motion.displacement[n]);
     nodes[n].set_velocity(motion.displacement[n]);
   }
-  const std::size_t size =
-      static_cast<std::size_t>(block.group_count()) * block.corners() * 3 * kLanes;
+  const std::size_t size = block.corner_array_size();
   std::vector<double, Eigen::aligned_allocator<double>> history(
       static_cast<std::size_t>(block.group_count()) * block.history_per_group()),
       forces(size), moments(size);
@@ -92,12 +91,11 @@ inline NodalLoads loads_after(const Model& model, const PlateMotion& motion) {
   for (int element = 0; element < block.element_count(); ++element)
     for (int corner = 0; corner < block.corners(); ++corner) {
       const int group = element / kLanes, lane = element % kLanes;
-      const std::size_t slot =
-          static_cast<std::size_t>(group * block.corners() + corner) * 3 * kLanes + lane;
+      const std::size_t slot = block.corner_slot(group, corner, lane);
       const int node = block.node(group, corner, lane);
       for (int axis = 0; axis < 3; ++axis) {
-        out.force[node][axis] += forces[slot + axis * kLanes];
-        out.moment[node][axis] += moments[slot + axis * kLanes];
+        out.force[node][axis] += forces[slot + axis];
+        out.moment[node][axis] += moments[slot + axis];
       }
     }
   return out;

@@ -11,11 +11,13 @@ MultibodySettings read_multibody(ConfigTable table) {
   MultibodySettings s;
   s.substep = table.quantity_or("substep", Dimension::Time, {1e-7, 1e-4}, 1e-5,
                                 "largest time step; a window is divided evenly");
-  s.stepper = table.choice_or("stepper", {"direct", "quick"}, "direct",
-                              "direct: factorisation; quick: iterative, about four times faster") ==
-                      "direct"
-                  ? Stepper::Direct
-                  : Stepper::Quick;
+  const std::string stepper = table.choice_or(
+      "stepper", {"direct", "dense", "quick"}, "direct",
+      "direct: joint forces exact, solved along the tree; dense: the same by ODE's own "
+      "factorisation, slow; quick: ODE's iterations");
+  s.stepper = stepper == "direct"  ? Stepper::Direct
+              : stepper == "dense" ? Stepper::Dense
+                                   : Stepper::Quick;
   s.quick_iterations = table.integer_or("quick_iterations", 5, 1000, OdeWorld::kQuickIterations,
                                         "iterations of the quick stepper");
   s.fracture = table.flag_or("fracture", true, "long bones may break, once each");

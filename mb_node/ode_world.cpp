@@ -61,7 +61,44 @@ struct OdeWorld::Impl {
     Vec3 p_P, p_C;  // the anchor from both centres of mass
   };
   std::vector<Anchored> anchored;
+  TreeSolver tree;
+  JointSoftness softness;
+  std::vector<BodyNow> now;  // scratch of the tree solver
+  std::vector<Wrench> joint_loads;
+
+  void read_bodies();
+  void add_joint_loads(double dt);
 };
+
+void OdeWorld::Impl::read_bodies() {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const dReal* q = dBodyGetQuaternion(bodies[i]);
+    const dReal* r = dBodyGetRotation(bodies[i]);
+    BodyNow& b = now[i];
+    b.p = vec3(dBodyGetPosition(bodies[i]));
+    b.q = Quat(q[0], q[1], q[2], q[3]);
+    b.R << r[0], r[1], r[2], r[4], r[5], r[6], r[8], r[9], r[10];
+    b.V = {vec3(dBodyGetLinearVel(bodies[i])), vec3(dBodyGetAngularVel(bodies[i]))};
+  }
+}
+
+// ODE then steps bodies without joints: their forces stand in for them.
+void OdeWorld::Impl::add_joint_loads(double dt) {
+  read_bodies();
+  dVector3 gravity;
+  dWorldGetGravity(world.get(), gravity);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    now[i].load = {vec3(dBodyGetForce(bodies[i])) + masses[i] * vec3(gravity),
+                   vec3(dBodyGetTorque(bodies[i]))};
+    joint_loads[i] = {};
+  }
+  tree.add_joint_loads(dt, softness, now, joint_loads);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Wrench& F = joint_loads[i];
+    dBodyAddForce(bodies[i], F.f.x(), F.f.y(), F.f.z());
+    dBodyAddTorque(bodies[i], F.tau.x(), F.tau.y(), F.tau.z());
+  }
+}
 
 OdeWorld::OdeWorld(Stepper stepper, int quick_iterations) : impl_(std::make_unique<Impl>()) {
   use_library_in_this_thread();
@@ -72,6 +109,7 @@ OdeWorld::OdeWorld(Stepper stepper, int quick_iterations) : impl_(std::make_uniq
   dWorldSetAutoDisableFlag(world, 0);
   dWorldSetDamping(world, 0, 0);
   dWorldSetQuickStepNumIterations(world, quick_iterations);
+  impl_->softness = {dWorldGetERP(world), dWorldGetCFM(world)};
   dRandSetSeed(kRandomSeed);
 }
 
@@ -94,6 +132,9 @@ int OdeWorld::add_body(double mass, const Mat3& about_com, const Pose& X_WB) {
   impl_->bodies.push_back(body);
   impl_->masses.push_back(mass);
   impl_->inertias.push_back(about_com);
+  impl_->tree.add_body(mass, about_com);
+  impl_->now.emplace_back();
+  impl_->joint_loads.emplace_back();
   const int index = body_count() - 1;
   set_pose(index, X_WB);
   return index;
@@ -105,37 +146,38 @@ void OdeWorld::add_joint(JointKind kind, int parent, int child, const Vec3& p_W,
   dWorldID world = impl_->world.get();
   dBodyID a = parent < 0 ? nullptr : impl_->bodies[parent];
   dBodyID b = impl_->bodies[child];
+  impl_->read_bodies();
+  impl_->tree.add_joint(kind, parent, child, p_W, axis_1, axis_2, impl_->now);
+  dJointID joint = nullptr;
   switch (kind) {
-    case JointKind::Ball: {
-      dJointID joint = dJointCreateBall(world, nullptr);
+    case JointKind::Ball:
+      joint = dJointCreateBall(world, nullptr);
       dJointAttach(joint, a, b);
       dJointSetBallAnchor(joint, p_W.x(), p_W.y(), p_W.z());
       break;
-    }
-    case JointKind::Hinge: {
-      dJointID joint = dJointCreateHinge(world, nullptr);
+    case JointKind::Hinge:
+      joint = dJointCreateHinge(world, nullptr);
       dJointAttach(joint, a, b);
       dJointSetHingeAnchor(joint, p_W.x(), p_W.y(), p_W.z());
       dJointSetHingeAxis(joint, axis_1.x(), axis_1.y(), axis_1.z());
       break;
-    }
-    case JointKind::Universal: {
-      dJointID joint = dJointCreateUniversal(world, nullptr);
+    case JointKind::Universal:
+      joint = dJointCreateUniversal(world, nullptr);
       dJointAttach(joint, a, b);
       dJointSetUniversalAnchor(joint, p_W.x(), p_W.y(), p_W.z());
       dJointSetUniversalAxis1(joint, axis_1.x(), axis_1.y(), axis_1.z());
       dJointSetUniversalAxis2(joint, axis_2.x(), axis_2.y(), axis_2.z());
       break;
-    }
-    case JointKind::Slider: {
-      dJointID joint = dJointCreateSlider(world, nullptr);
+    case JointKind::Slider:
+      joint = dJointCreateSlider(world, nullptr);
       dJointAttach(joint, a, b);
       dJointSetSliderAxis(joint, axis_1.x(), axis_1.y(), axis_1.z());
       break;
-    }
     case JointKind::Free:
       break;
   }
+  CW_ASSERT(impl_->stepper != Stepper::Direct || impl_->tree.is_tree());
+  if (impl_->stepper == Stepper::Direct) dJointDisable(joint);
   if (kind == JointKind::Slider) return;
   const Vec3 p_P = parent < 0 ? p_W : Vec3(pose(parent).inverse() * p_W);
   impl_->anchored.push_back({parent, child, p_P, pose(child).inverse() * p_W});
@@ -196,8 +238,9 @@ void OdeWorld::clear_loads() {
 
 void OdeWorld::step(double dt) {
   use_library_in_this_thread();
-  const int ok = impl_->stepper == Stepper::Direct ? dWorldStep(impl_->world.get(), dt)
-                                                   : dWorldQuickStep(impl_->world.get(), dt);
+  if (impl_->stepper == Stepper::Direct) impl_->add_joint_loads(dt);
+  const int ok = impl_->stepper == Stepper::Quick ? dWorldQuickStep(impl_->world.get(), dt)
+                                                  : dWorldStep(impl_->world.get(), dt);
   if (ok == 0) throw std::bad_alloc();
 }
 

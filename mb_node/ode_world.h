@@ -12,15 +12,15 @@
 #include <vector>
 
 #include "common/spatial.h"
+#include "mb_node/tree_solver.h"
 
 namespace crosswalk::mb {
 
 enum class Stepper {
-  Direct,  ///< dWorldStep: direct factorisation, deterministic
-  Quick    ///< dWorldQuickStep: successive over-relaxation, about four times faster
+  Direct,  ///< ODE's equations of the step, joint forces solved along the tree (tree_solver.h)
+  Dense,   ///< dWorldStep: ODE's dense factorisation of the same equations, ten times slower
+  Quick    ///< dWorldQuickStep: successive over-relaxation, joints only nearly closed
 };
-/// Free: no joint (the child floats).
-enum class JointKind { Free, Ball, Hinge, Universal, Slider };
 
 /// Everything ODE remembers of its bodies between two steps, copied bit by bit.
 struct WorldState {

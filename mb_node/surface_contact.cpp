@@ -44,22 +44,37 @@ double vertex_slope(const Ellipse& e, const Vec2& vertex, const Vec2& n) {
   return -(e.deepest(n) - vertex).dot(turned(n));
 }
 
-/// Angle of the smallest overlap between two normals (angles from < to) around a vertex, if inside.
-std::optional<double> vertex_minimum(const Ellipse& e, const Vec2& vertex, double from, double to) {
-  if (vertex_slope(e, vertex, direction(from)) >= 0) return std::nullopt;
-  if (vertex_slope(e, vertex, direction(to)) <= 0) return std::nullopt;
-  double low = from, high = to;
-  for (int i = 0; i < 50 && high - low > 1e-12; ++i) {
-    const double middle = 0.5 * (low + high);
-    (vertex_slope(e, vertex, direction(middle)) < 0 ? low : high) = middle;
+/// Normal of the smallest overlap between two normals less than half a turn apart around a vertex,
+/// if it lies inside: root of the slope on the arc by the bracketed secant (Illinois).
+std::optional<Vec2> vertex_minimum(const Ellipse& e, const Vec2& vertex, const Vec2& from,
+                                   const Vec2& to) {
+  double g_low = vertex_slope(e, vertex, from), g_high = vertex_slope(e, vertex, to);
+  if (g_low >= 0 || g_high <= 0) return std::nullopt;
+  const double scale = g_high - g_low;
+  double low = 0, high = 1;
+  Vec2 n = from;
+  int kept = 0;  // which end stayed: its value is halved when it stays twice
+  for (int i = 0; i < 60 && high - low > 1e-14; ++i) {
+    const double s = high - g_high * (high - low) / (g_high - g_low);
+    n = ((1 - s) * from + s * to).normalized();
+    const double g = vertex_slope(e, vertex, n);
+    if (std::abs(g) < 1e-14 * scale) break;
+    if (g > 0) {
+      high = s;
+      g_high = g;
+      if (kept == -1) g_low *= 0.5;
+      kept = -1;
+    } else {
+      low = s;
+      g_low = g;
+      if (kept == 1) g_high *= 0.5;
+      kept = 1;
+    }
   }
-  return 0.5 * (low + high);
+  return n;
 }
 
 double angle_of(const Vec2& n) { return std::atan2(n.y(), n.x()); }
-
-/// b turned by whole turns until it lies within half a turn of a.
-double near_angle(double b, double a) { return a + std::remainder(b - a, 2 * kPi); }
 
 }  // namespace
 
@@ -158,7 +173,7 @@ std::optional<FrontOverlap> overlap_with_front(const PosedEllipsoid& e, const Ve
   const Mat3 A_F = R.transpose() * e.A * R;
   const Ellipse ellipse{centre_F.tail<2>(), A_F.bottomRightCorner<2, 2>()};
   double best = std::numeric_limits<double>::infinity();
-  double best_angle = 0;
+  Vec2 n = Vec2::Zero();
   int best_facet = -1;
   // Normals of the facets; any gap ends the search.
   for (const int i : chain.facets) {
@@ -167,40 +182,38 @@ std::optional<FrontOverlap> overlap_with_front(const PosedEllipsoid& e, const Ve
     if (g <= 0) return std::nullopt;
     if (g >= best) continue;
     best = g;
-    best_angle = angle_of(facet.normal);
+    n = facet.normal;
     best_facet = i;
   }
   // Normals around the vertices between them, and around free ends.
-  const auto try_vertex = [&](const Vec2& vertex, double from, double to, int facet) {
-    const std::optional<double> angle = vertex_minimum(ellipse, vertex, from, to);
-    if (!angle) return;
-    const double g = vertex_overlap(ellipse, vertex, direction(*angle));
+  const auto try_vertex = [&](const Vec2& vertex, const Vec2& from, const Vec2& to, int facet) {
+    const std::optional<Vec2> found = vertex_minimum(ellipse, vertex, from, to);
+    if (!found) return;
+    const double g = vertex_overlap(ellipse, vertex, *found);
     if (g >= best) return;
     best = g;
-    best_angle = *angle;
+    n = *found;
     best_facet = facet;
   };
   for (std::size_t k = 0; k + 1 < chain.facets.size(); ++k) {
     const FrontFacet& below = front.facets[chain.facets[k]];
     const FrontFacet& above = front.facets[chain.facets[k + 1]];
-    const double from = angle_of(below.normal);
-    try_vertex(below.end, from, near_angle(angle_of(above.normal), from), chain.facets[k]);
+    try_vertex(below.end, below.normal, above.normal, chain.facets[k]);
   }
   const FrontFacet& first = front.facets[chain.facets.front()];
   const FrontFacet& last = front.facets[chain.facets.back()];
-  const double first_angle = angle_of(first.normal), last_angle = angle_of(last.normal);
+  const Eigen::Rotation2Dd fan(kFreeFan);
   if (chain.is_open_begin) {
-    const Vec2 under = direction(first_angle - kFreeFan);
+    const Vec2 under = fan.inverse() * first.normal;
     if (vertex_overlap(ellipse, first.begin, under) <= 0) return std::nullopt;
-    try_vertex(first.begin, first_angle - kFreeFan, first_angle, chain.facets.front());
+    try_vertex(first.begin, under, first.normal, chain.facets.front());
   }
   if (chain.is_open_end) {
-    const Vec2 over = direction(last_angle + kFreeFan);
+    const Vec2 over = fan * last.normal;
     if (vertex_overlap(ellipse, last.end, over) <= 0) return std::nullopt;
-    try_vertex(last.end, last_angle, last_angle + kFreeFan, chain.facets.back());
+    try_vertex(last.end, last.normal, over, chain.facets.back());
   }
   if (best <= 0) return std::nullopt;
-  const Vec2 n = direction(best_angle);
   // Past a closed end the next chain takes over.
   const Vec2 deepest = ellipse.deepest(n);
   const double before =

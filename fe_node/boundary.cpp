@@ -67,7 +67,9 @@ WindowLoads advance_window(const Model& model, const Boundary& boundary, const F
                            State& state, Scratch& scratch) {
   const int count = static_cast<int>(boundary.bodies.size()), attached = boundary.attached;
   CW_ASSERT(static_cast<int>(grant.drives.size()) == count);
-  CW_ASSERT(grant.mobility.rows() == 6 * attached && grant.mobility.cols() == 6 * attached);
+  const bool yields = grant.mobility.size() > 0;  // else the blocks follow the drives exactly
+  CW_ASSERT(!yields ||
+            (grant.mobility.rows() == 6 * attached && grant.mobility.cols() == 6 * attached));
   const double window = grant.id.length_s();
   const int substeps = substep_count(window, stable_step_of(model, state, scratch));
   const double dt = window / substeps;
@@ -87,7 +89,7 @@ WindowLoads advance_window(const Model& model, const Boundary& boundary, const F
       V.segment<6>(6 * k) += dt / window * grant.drives[k].twist_change;
       if (k < attached) excess.segment<6>(6 * k) = F - grant.drives[k].bias;
     }
-    if (attached > 0) V.head(6 * attached).noalias() += kick * (grant.mobility * excess);
+    if (yields) V.head(6 * attached).noalias() += kick * (grant.mobility * excess);
     for (int k = 0; k < count; ++k) {
       Twist command = twist_from(V.segment<6>(6 * k));
       if (k < attached) {

@@ -5,9 +5,10 @@
 // acceleration without the wrench beyond the bias and W the mobility of the multibody system, so
 // the velocity of both sides agrees at the fine scale without iterations (mobility-based
 // staggering; the operator of [gravouil2001] with a rigid interface). The pose gap at the window's
-// start is removed with a time constant of kGapTime, slow against every stiff mode. Followers only
-// lend contact surfaces: they follow the drive exactly. Wrenches are "fe on mb" about the moving
-// reference point, world axes.
+// start is removed with a time constant of kGapTime, slow against every stiff mode. Without a
+// mobility (schemes `implicit` and `staggered`) they follow the drive and its change alone.
+// Followers only lend contact surfaces: they follow the drive exactly. Wrenches are "fe on mb"
+// about the moving reference point, world axes.
 #pragma once
 
 #include <vector>

@@ -10,24 +10,35 @@
 #include "common/contact_shapes.h"
 #include "common/scenario.h"
 #include "fe_node/generate/head_neck.h"
+#include "fe_node/generate/windshield.h"
 
 namespace crosswalk::fe {
 
+/// What the parts of an own deck are: the title of a set, or part numbers and titles.
+struct PartNames {
+  std::string head, brain, surface, skull;
+};
+
 struct HeadNeckConfig {
   bool is_generated = true;
-  std::filesystem::path deck;  ///< when not generated
+  generate::HeadNeckSpec spec;  ///< when generated
+
+  // An own deck, frame D.
+  std::filesystem::path deck;
   UnitSystem units = UnitSystem::Unknown;
-  generate::HeadNeckSpec spec;
-  /// Point of the deck that stands on the multibody C7/T1 joint, m, deck frame.
-  Vec3 joint = Vec3::Zero();
-  std::string skull_set, head_parts, brain_parts, surface_parts;  ///< names in the deck
+  Vec3 joint = Vec3::Zero();        ///< m: stands on the multibody C7/T1 joint
+  Quat q_ND = Quat::Identity();     ///< turns the deck's axes to forward, left, up
+  std::optional<Vec3> head_centre;  ///< m: reported point; none: the head parts' mass centre
+  PartNames names;
 };
 
 struct FeConfig {
   HeadNeckConfig head_neck;
-  std::vector<InterfaceSpec> interfaces;   ///< attached ones first
-  std::vector<BodyShapes> partner_shapes;  ///< of the followers
-  BodyDescription body;                    ///< for the place of the joint
+  std::vector<InterfaceSpec> interfaces;               ///< attached ones first
+  std::vector<BodyShapes> partner_shapes;              ///< of the followers
+  std::optional<generate::WindshieldSpec> windshield;  ///< none: the car's force curve
+  double wake_distance = 0.060;  ///< m: the head this near, the windshield takes part
+  BodyDescription body;          ///< for the place of the joint
   double vehicle_friction = 0.3, self_friction = 0.2;
   double gravity = 0;  ///< m/s2, downwards
   double step_scale = 0.9;

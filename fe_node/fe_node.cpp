@@ -9,57 +9,13 @@
 #include "common/error.h"
 #include "common/log.h"
 #include "common/neck_landmarks.h"
-#include "fe_node/contact/rigid_surface.h"
 #include "fe_node/contact/surface.h"
-#include "fe_node/deck/deck_writer.h"
-#include "fe_node/deck/keyword_reader.h"
-#include "fe_node/generate/deck_export.h"
 #include "fe_node/output/field_writer.h"
 #include "fe_node/output/state_bytes.h"
+#include "fe_node/own_head.h"
 
 namespace crosswalk::fe {
 namespace {
-
-/// The rigid part that follows an attached body: its name in the scenario, or "block_" and the
-/// body's.
-std::string block_name(const InterfaceSpec& interface, const Deck& deck) {
-  const std::string own = "block_" + interface.body;
-  for (const Part& part : deck.parts)
-    if (part.title == own && interface.part == interface.body) return own;
-  return interface.part;
-}
-
-int require_part_set(const BuiltModel& built, const std::string& name) {
-  const int index = built.part_set(name);
-  if (index < 0)
-    throw UserError(
-        Problem{{}, "part set `" + name + "`", "a *SET_PART of that title", "none", {}});
-  return index;
-}
-
-CharacteristicLaw law_of(const Characteristic& c, double rate) {
-  return {c.loading, c.permanent_fraction, c.unloading_exponent, rate};
-}
-
-/// One patch per component of the car, so that its facets share one deflection.
-std::vector<RigidPatch> patches_of(const BodyShapes& shapes, double rate) {
-  std::vector<RigidPatch> patches;
-  for (const EllipsoidShape& e : shapes.ellipsoids)
-    patches.push_back({e.name, {RigidEllipsoid{e.X_BE, e.semi_axes}}, law_of(e.flesh, rate)});
-  for (const FrontFacet& f : shapes.facets) {
-    if (patches.empty() || patches.back().name != f.component)
-      patches.push_back({f.component, {}, law_of(f.structure, rate)});
-    const Vec3 begin(0, f.begin.x(), f.begin.y()), end(0, f.end.x(), f.end.y());
-    RigidFacet facet;
-    facet.across = (end - begin).normalized();
-    facet.width = (end - begin).norm();
-    facet.along = facet.across.cross(Vec3(0, f.normal.x(), f.normal.y()));
-    facet.length = 2 * f.half_width;
-    facet.corner = begin - f.half_width * facet.along;
-    patches.back().shapes.push_back(facet);
-  }
-  return patches;
-}
 
 ContactSurface outer_surface(const BuiltModel& built, const std::string& parts) {
   std::vector<ContactPart> of;
@@ -77,91 +33,49 @@ std::vector<TissueRegion> regions_of(const BuiltModel& built, const std::string&
 }  // namespace
 
 FeNode::FeNode(FeConfig config, int threads, std::filesystem::path folder)
-    : config_(std::move(config)), threads_(threads), folder_(std::move(folder)) {
-  Deck deck;
-  if (config_.head_neck.is_generated) {
-    const generate::HeadNeck made = generate::build_head_neck(config_.head_neck.spec);
-    joint_ = made.landmarks.c7_t1;
-    deck = generate::to_deck(made.draft, config_.head_neck.spec.units);
-  } else {
-    joint_ = config_.head_neck.joint;
-    deck = require_runnable(read_deck(config_.head_neck.deck), MissingPolicy::Refuse);
-  }
-  if (!folder_.empty()) {
-    std::filesystem::create_directories(folder_ / "model");
-    write_deck(folder_ / "model" / "head_neck.k", deck);
-  }
-  BuildOptions options;
-  options.units = config_.head_neck.units;
-  options.mass_scaling_step = 0;
-  for (const InterfaceSpec& interface : config_.interfaces) {
-    if (interface.is_attached)
-      options.driven_parts.push_back(block_name(interface, deck));
-    else
-      options.followers.push_back(interface.body);
-  }
-  built_ = build_model(deck, options);
-  built_.model.settings.step_scale = config_.step_scale;
-  if (config_.added_mass_limit > 0) {
-    options.mass_scaling_step = mass_scaling_step_for(built_.model, config_.added_mass_limit);
-    built_ = build_model(deck, options);
-    built_.model.settings.step_scale = config_.step_scale;
-  }
-  built_.model.settings.gravity = {0, 0, -config_.gravity};
-  const auto find_body = [&](const std::string& name) {
-    const std::vector<RigidBody>& bodies = built_.model.bodies;
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-      if (bodies[b].name == name) return static_cast<int>(b);
-    throw UserError(
-        Problem{{}, "interface part `" + name + "`", "a rigid part of the deck", "none", {}});
-  };
-  for (const std::string& name : options.driven_parts) boundary_.bodies.push_back(find_body(name));
-  boundary_.attached = static_cast<int>(boundary_.bodies.size());
-  for (const std::string& name : options.followers) boundary_.bodies.push_back(find_body(name));
-  add_partner_contacts();
-  finish_model(built_);
-  const Model& model = built_.model;
-  const int skull = model.mesh.find_node_set(config_.head_neck.skull_set);
-  if (skull < 0)
-    throw UserError(Problem{{},
-                            "node set `" + config_.head_neck.skull_set + "`",
-                            "a *SET_NODE of that title",
-                            "none",
-                            {}});
-  const int head = require_part_set(built_, config_.head_neck.head_parts);
-  const Inertia inertia = inertia_of_parts(model, built_.part_sets[head].second);
-  head_ = HeadMotion(model, model.mesh.node_sets[skull].nodes, inertia.com);
-  tissue_ = TissueMetrics(model, regions_of(built_, config_.head_neck.brain_parts));
+    : config_(std::move(config)),
+      threads_(threads),
+      folder_(std::move(folder)),
+      node_(build_node_model(config_, folder_)) {
+  const Model& model = node_.built.model;
+  const int skull = model.mesh.find_node_set(kSkullNodes);
+  CW_ASSERT(skull >= 0);
+  const int head = require_part_set(node_.built, kHeadParts);
+  const Inertia inertia = inertia_of_parts(model, node_.built.part_sets[head].second);
+  const HeadNeckConfig& own = config_.head_neck;
+  const Pose X_DH{own.q_ND.conjugate(), own.head_centre.value_or(inertia.com)};
+  head_ = HeadMotion(model, model.mesh.node_sets[skull].nodes, X_DH);
+  compare_with_multibody_head();
+  tissue_ = TissueMetrics(model, regions_of(node_.built, kBrainParts));
   scratch_.emplace(model, threads_);
   double added = 0;
   for (double m : model.added_mass) added += m;
   log_info(
-      "model: {} nodes, {} hexahedra, {} lines, mass {:.3f} kg (head {:.3f} kg), added mass "
-      "{:.4f} kg, stable step {:.3f} us",
+      "model: {} nodes, {} hexahedra, {} shells, {} lines, mass {:.3f} kg (head {:.3f} kg), added "
+      "mass {:.4f} kg, stable step {:.3f} us",
       model.mesh.node_count(), model.mesh.table(ElementKind::Hex8).size(),
-      model.mesh.table(ElementKind::Line2).size(), model.total_mass(), inertia.mass, added,
-      1e6 * initial_stable_step(model));
-  for (const std::string& note : built_.notes) log_warning("{}", note);
+      model.mesh.table(ElementKind::Quad4).size(), model.mesh.table(ElementKind::Line2).size(),
+      model.total_mass(), inertia.mass, added, 1e6 * initial_stable_step(model));
+  for (const std::string& note : node_.built.notes) log_warning("{}", note);
 }
 
 FeNode::~FeNode() = default;
 
-void FeNode::add_partner_contacts() {
-  const ContactSurface surface = outer_surface(built_, config_.head_neck.surface_parts);
-  std::vector<int> nodes;
-  for (const ContactNode& n : surface.nodes) nodes.push_back(n.node);
-  for (const BodyShapes& shapes : config_.partner_shapes) {
-    RigidSurfaceSpec spec;
-    spec.name = "head and " + shapes.body;
-    spec.nodes = nodes;
-    spec.patches = patches_of(shapes, config_.body.contact.rate);
-    spec.friction = shapes.facets.empty() ? config_.self_friction : config_.vehicle_friction;
-    for (std::size_t k = boundary_.attached; k < boundary_.bodies.size(); ++k)
-      if (built_.model.bodies[boundary_.bodies[k]].name == shapes.body)
-        spec.body = boundary_.bodies[k];
-    if (!spec.patches.empty())
-      built_.model.contacts.push_back(make_rigid_surface_contact(std::move(spec)));
-  }
+/// A head far from where the subject has it was mapped or measured wrongly.
+void FeNode::compare_with_multibody_head() const {
+  if (config_.head_neck.is_generated) return;
+  constexpr double kFar = 0.03;  // m; a generated head without a fit lies up to 28 mm off
+  const NeckLandmarks marks = neck_landmarks(config_.body);
+  const Vec3 ours = config_.head_neck.q_ND * Vec3(head_.frame().p - node_.joint);
+  const Vec3 off = 1e3 * (ours - (marks.head_centre - marks.base));
+  const std::string text = fmt::format(
+      "the head's centre lies ({:+.0f}, {:+.0f}, {:+.0f}) mm (forward, left, up) from the "
+      "multibody head's",
+      off.x(), off.y(), off.z());
+  if (off.norm() < 1e3 * kFar)
+    log_info("{}", text);
+  else
+    log_warning("{}; check head_neck.joint, forward_axis, up_axis and units", text);
 }
 
 std::vector<InterfaceBody> FeNode::interface_bodies() const {
@@ -172,29 +86,43 @@ std::vector<InterfaceBody> FeNode::interface_bodies() const {
 }
 
 std::vector<InterfaceBody> FeNode::place(std::vector<InterfaceBody> bodies) {
-  CW_ASSERT(bodies.size() == boundary_.bodies.size());
-  const auto torso = std::find_if(bodies.begin(), bodies.end(),
-                                  [](const InterfaceBody& b) { return b.name == "torso_up"; });
+  CW_ASSERT(bodies.size() == node_.boundary.bodies.size());
+  const auto find = [&bodies](const char* name) {
+    return std::find_if(bodies.begin(), bodies.end(),
+                        [name](const InterfaceBody& b) { return b.name == name; });
+  };
+  const auto torso = find("torso_up"), buck = find("buck");
   Pose X_WD;
   Twist V_WD;
   if (torso != bodies.end()) {
-    const Vec3 p_TD = neck_landmarks(config_.body).base_on_torso - joint_;
-    X_WD = torso->motion.X_WB * Pose{Quat::Identity(), p_TD};
+    const Quat& q_ND = config_.head_neck.q_ND;
+    const Vec3 p_TD = neck_landmarks(config_.body).base_on_torso - q_ND * node_.joint;
+    X_WD = torso->motion.X_WB * Pose{q_ND, p_TD};
     V_WD = torso->motion.V_WB.shifted(X_WD.p - torso->motion.X_WB.p);
   }
-  run_.state = initial_state(built_.model, X_WD, V_WD);
-  const std::vector<Inertia> blocks = rebase_bodies(boundary_, bodies, built_.model, run_.state);
+  run_.state = initial_state(node_.built.model, X_WD, V_WD);
+  if (config_.windshield && buck != bodies.end())
+    place_sleeper(node_.built.model, buck->motion.X_WB * windshield_in_buck(), buck->motion.V_WB,
+                  run_.state);
+  const std::vector<Inertia> blocks =
+      rebase_bodies(node_.boundary, bodies, node_.built.model, run_.state);
   for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].block = blocks[k];
   run_.head_twist = head_.twist(run_.state);
   run_.peaks = tissue_.no_peaks();
   if (!folder_.empty() && config_.field_interval > 0)
-    fields_ = std::make_unique<FieldWriter>(built_.model, folder_ / "fields");
+    fields_ = std::make_unique<FieldWriter>(node_.built.model, folder_ / "fields");
   return bodies;
 }
 
 FeReply FeNode::run_window(const FeGrant& grant) {
-  const Model& model = built_.model;
-  const WindowLoads window = advance_window(model, boundary_, grant, run_.state, *scratch_);
+  const Model& model = node_.built.model;
+  if (is_asleep(model, run_.state) &&
+      is_near_windshield(config_, node_, run_.state, run_.state.bodies[model.sleeper->body].X_WB)) {
+    wake_sleeper(model, run_.state);
+    log_info("the head is near the windshield: it takes part from {:.2f} ms on",
+             1e3 * run_.state.time);
+  }
+  const WindowLoads window = advance_window(model, node_.boundary, grant, run_.state, *scratch_);
   progress_ += window.substeps;
   FeReply reply;
   reply.substeps = window.substeps;
@@ -210,9 +138,9 @@ FeReply FeNode::run_window(const FeGrant& grant) {
   reply.external_work = e.external_work;
   reply.interface_work = e.interface_work;
   for (double m : model.added_mass) reply.added_mass += m;
-  for (std::size_t k = 0; k < boundary_.bodies.size(); ++k)
-    if (config_.interfaces[k].body == "buck")
-      reply.head_contact_force = window.loads[k].impulse.head<3>().norm() / grant.id.length_s();
+  Vec3 on_car = Vec3::Zero();
+  for (std::size_t c : node_.car_contacts) on_car += scratch_->contact_reports[c].force;
+  reply.head_contact_force = on_car.norm();
   return reply;
 }
 
@@ -247,10 +175,13 @@ void FeNode::publish(const WindowId& id, RecordSink& sink) {
   };
   const bool tissue_due = is_due(run_.next_tissue_ns, config_.tissue_interval);
   if (is_due(run_.next_strain_ns, config_.strain_interval) || tissue_due) {
-    const TissueSample tissue = tissue_.sample(built_.model, run_.state, end_ns, run_.peaks);
+    const TissueSample tissue = tissue_.sample(node_.built.model, run_.state, end_ns, run_.peaks);
     if (tissue_due) sink.tissue(tissue);
   }
-  if (fields_ && is_due(run_.next_field_ns, config_.field_interval)) fields_->write(run_.state);
+  if (fields_ && is_due(run_.next_field_ns, config_.field_interval)) {
+    if (is_asleep(node_.built.model, run_.state)) carry_sleeper(node_.built.model, run_.state);
+    fields_->write(run_.state);
+  }
 }
 
 /// An element is inverted at the present positions: one step back none was.
@@ -260,22 +191,23 @@ void FeNode::write_last_sound_frame() {
   for (NodeRecord& node : sound.nodes)
     node.set_position(node.position() - sound.last_dt * node.velocity());
   sound.time -= sound.last_dt;
-  FieldWriter writer(built_.model, folder_ / "fields" / "last_sound");
+  FieldWriter writer(node_.built.model, folder_ / "fields" / "last_sound");
   log_error("last sound frame: fields/last_sound/{}", writer.write(sound).string());
 }
 
 std::string FeNode::description() const {
   using nlohmann::json;
   json parts = json::array();
-  for (const MeshPart& part : built_.model.mesh.parts)
+  for (const MeshPart& part : node_.built.model.mesh.parts)
     parts.push_back({{"id", part.id.value}, {"name", part.name}, {"rigid", part.is_rigid}});
-  const ContactSurface surface = outer_surface(built_, config_.head_neck.surface_parts);
+  const ContactSurface surface = outer_surface(node_.built, kHeadSurface);
+  const Pose X_HD = head_.frame().inverse();
   json vertices = json::array(), triangles = json::array();
-  std::vector<int> vertex(built_.model.mesh.node_count(), -1);
+  std::vector<int> vertex(node_.built.model.mesh.node_count(), -1);
   const auto rounded = [](double x) { return std::round(x * 1e4) / 1e4; };  // 0.1 mm
   for (const ContactNode& n : surface.nodes) {
     vertex[n.node] = static_cast<int>(vertices.size());
-    const Vec3 p = built_.model.mesh.position[n.node] - head_.origin();
+    const Vec3 p = X_HD * node_.built.model.mesh.position[n.node];
     vertices.push_back({rounded(p.x()), rounded(p.y()), rounded(p.z())});
   }
   for (const ContactFacet& facet : surface.facets) {

@@ -6,9 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "fe_node/boundary.h"
-#include "fe_node/fe_config.h"
-#include "fe_node/model_builder/model_builder.h"
+#include "fe_node/node_model.h"
 #include "fe_node/output/head_motion.h"
 #include "fe_node/output/tissue_metrics.h"
 
@@ -30,7 +28,7 @@ class FeNode : public FeParticipant {
   std::vector<std::byte> save_state() const override;
   void load_state(const std::vector<std::byte>& bytes) override;
 
-  const BuiltModel& built() const { return built_; }
+  const BuiltModel& built() const { return node_.built; }
   const State& state() const { return run_.state; }
 
  private:
@@ -42,7 +40,7 @@ class FeNode : public FeParticipant {
     std::int64_t next_tissue_ns = 0, next_strain_ns = 0, next_field_ns = 0;
   };
 
-  void add_partner_contacts();
+  void compare_with_multibody_head() const;
   FeReply run_window(const FeGrant& grant);
   void publish(const WindowId& id, RecordSink& sink);
   void write_last_sound_frame();
@@ -50,9 +48,7 @@ class FeNode : public FeParticipant {
   FeConfig config_;
   int threads_;
   std::filesystem::path folder_;
-  BuiltModel built_;
-  Boundary boundary_;
-  Vec3 joint_ = Vec3::Zero();  ///< deck frame
+  NodeModel node_;
   HeadMotion head_;
   TissueMetrics tissue_;
   std::optional<Scratch> scratch_;

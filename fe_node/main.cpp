@@ -9,6 +9,7 @@
 #include "fe_node/commands.h"
 #include "fe_node/fe_config.h"
 #include "fe_node/fe_node.h"
+#include "fe_node/own_head.h"
 
 namespace {
 
@@ -31,8 +32,11 @@ int main(int argc, char** argv) {
       argc, argv,
       {.name = "fe_node",
        .purpose = "computes the finite-element head and neck",
-       .read = [](ConfigDocument& document,
-                  const Scenario& scenario) { fe::read_fe_config(document, scenario); },
+       .read =
+           [](ConfigDocument& document, const Scenario& scenario) {
+             const fe::FeConfig config = fe::read_fe_config(document, scenario);
+             if (!config.head_neck.deck.empty()) fe::read_own_deck(config);
+           },
        .run =
            [](RunContext& context) {
              fe::FeConfig config = fe::read_fe_config(context.document, context.scenario);

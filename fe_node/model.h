@@ -13,6 +13,7 @@
 #include "fe_node/element/element_block.h"
 #include "fe_node/mesh/corner_table.h"
 #include "fe_node/mesh/mesh.h"
+#include "fe_node/sleeper.h"
 
 namespace crosswalk::fe {
 
@@ -43,6 +44,7 @@ struct Model {
   std::vector<StartVelocity> start_velocities;
   std::vector<double> point_mass;  ///< kg per node, from mass elements; may be empty
   SolverSettings settings;
+  std::optional<Sleeper> sleeper;  ///< set after finish()
 
   // Filled by finish().
   CornerTable corner_forces;   ///< node -> slots of the corner force array

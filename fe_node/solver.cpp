@@ -13,18 +13,18 @@ namespace {
 constexpr int kGroupsPerChunk = 8;
 constexpr int kNodesPerChunk = 512;
 
-int node_chunk_count(const Model& model) {
-  return (model.mesh.node_count() + kNodesPerChunk - 1) / kNodesPerChunk;
-}
+int node_chunk_count(int node_count) { return (node_count + kNodesPerChunk - 1) / kNodesPerChunk; }
 
 void element_forces(const Model& model, State& state, Scratch& scratch) {
   const StepContext context{state.nodes, state.spin, state.time, state.last_dt, true};
   const int count = static_cast<int>(scratch.chunks.size());
+  const bool asleep = is_asleep(model, state);
 #pragma omp parallel for schedule(static) num_threads(scratch.threads)
   for (int c = 0; c < count; ++c) {
     const Scratch::Chunk& chunk = scratch.chunks[c];
     const std::size_t b = chunk.block;
     scratch.chunk_sums[c] = BlockSums{};
+    if (asleep && model.sleeper->blocks[b]) continue;
     model.blocks[b]->forces(context, state.history[b],
                             {scratch.corner_forces.data() + model.force_offset[b],
                              scratch.corner_forces.data() + model.force_offset[b + 1]},
@@ -90,7 +90,11 @@ void contact_forces(const Model& model, State& state, Scratch& scratch, StepRepo
                                state.last_dt, state.step,         scratch.threads};
   state.energies.contact_stored = 0;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    if (state.step == 0) model.contacts[c]->initialise(state.contacts[c], context);
+    const bool sleeps = model.sleeper && model.sleeper->contacts[c];
+    const std::int64_t first_step = sleeps ? state.awake_from : 0;
+    scratch.contact_reports[c] = {};
+    if (state.step < first_step) continue;
+    if (state.step == first_step) model.contacts[c]->initialise(state.contacts[c], context);
     const ContactReport r =
         model.contacts[c]->forces(context, state.contacts[c], scratch.contact_loads);
     scratch.contact_reports[c] = r;
@@ -124,8 +128,8 @@ Vec3 gather(const CornerTable& table, const double* corners, int node) {
 }
 
 /// Every node adds its corners in the order of the table: the same bits for any number of threads.
-void gather_nodal_forces(const Model& model, Scratch& scratch) {
-  const int node_count = model.mesh.node_count();
+void gather_nodal_forces(const Model& model, const State& state, Scratch& scratch) {
+  const int node_count = awake_node_count(model, state);
 #pragma omp parallel for schedule(static) num_threads(scratch.threads)
   for (int n = 0; n < node_count; ++n) {
     scratch.force[n] =
@@ -139,9 +143,15 @@ void gather_nodal_forces(const Model& model, Scratch& scratch) {
       scratch.force[tie.master[i]] += tie.weight[i] * scratch.force[tie.node];
 }
 
+bool carries_sleeper(const Model& model, const State& state, std::size_t body) {
+  return is_asleep(model, state) && static_cast<int>(body) == model.sleeper->body;
+}
+
 void sum_body_wrenches(const Model& model, const State& state, Scratch& scratch) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     Wrench wrench = scratch.contact_loads.on_body[b];
+    scratch.body_wrench[b] = wrench;
+    if (carries_sleeper(model, state, b)) continue;
     for (int n : model.bodies[b].nodes) {
       const Vec3& f = scratch.force[n];
       wrench.f += f;
@@ -224,19 +234,22 @@ void hold_fixed_nodes(const Model& model, State& state, const Scratch& scratch) 
 void integrate(const Model& model, State& state, Scratch& scratch, const Kick& kick, double dt) {
   const Vec3 gravity = gravity_at(model, state.time);
   const double damping = model.settings.mass_damping;
-  const int chunk_count = node_chunk_count(model);
+  const int node_count = awake_node_count(model, state);
+  const int weighed = model.sleeper ? model.sleeper->first_node : node_count;
+  const int chunk_count = node_chunk_count(node_count);
 #pragma omp parallel for schedule(static) num_threads(scratch.threads)
   for (int c = 0; c < chunk_count; ++c) {
     double kinetic = 0, gravity_work = 0, damped = 0;
-    const int last = std::min((c + 1) * kNodesPerChunk, model.mesh.node_count());
+    const int last = std::min((c + 1) * kNodesPerChunk, node_count);
     for (int n = c * kNodesPerChunk; n < last; ++n) {
       NodeRecord& node = state.nodes[n];
       const Vec3 before = node.velocity();
       Vec3 after = before;
       if (node.inverse_mass > 0) {
-        after = kick.keep * before + kick.gain * (scratch.force[n] * node.inverse_mass + gravity);
+        const Vec3 g = n < weighed ? gravity : Vec3(Vec3::Zero());
+        after = kick.keep * before + kick.gain * (scratch.force[n] * node.inverse_mass + g);
         kinetic += 0.5 * model.mass[n] * before.dot(after);
-        gravity_work += 0.5 * kick.length * model.mass[n] * gravity.dot(before + after);
+        gravity_work += 0.5 * kick.length * model.mass[n] * g.dot(before + after);
         damped += 0.25 * kick.length * damping * model.mass[n] * (before + after).squaredNorm();
         node.set_velocity(after);
         node.set_position(node.position() + dt * after);
@@ -250,7 +263,8 @@ void integrate(const Model& model, State& state, Scratch& scratch, const Kick& k
     scratch.node_sums[c] = {kinetic, gravity_work, damped};
   }
   state.energies.kinetic = 0;
-  for (const auto& [kinetic, gravity_work, damped] : scratch.node_sums) {
+  for (int c = 0; c < chunk_count; ++c) {
+    const auto& [kinetic, gravity_work, damped] = scratch.node_sums[c];
     state.energies.kinetic += kinetic;
     state.energies.external_work += gravity_work;
     state.energies.damping += damped;
@@ -299,7 +313,8 @@ void move_bodies(const Model& model, State& state, Scratch& scratch, double kick
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const RigidBody& body = model.bodies[b];
     BodyState& moved = state.bodies[b];
-    const Twist before = moved.V_WB;
+    const BodyState start = moved;
+    const Twist& before = start.V_WB;
     if (body.role == BodyRole::Free) {
       const Vec3 momentum = moved.angular_momentum;
       const Wrench wrench = guided_wrench(model, state, static_cast<int>(b), scratch.body_wrench[b],
@@ -313,6 +328,12 @@ void move_bodies(const Model& model, State& state, Scratch& scratch, double kick
       move_with_twist(scratch.body_command[b], dt, moved);
       const Twist mean{0.5 * (before.v + moved.V_WB.v), 0.5 * (before.w + moved.V_WB.w)};
       state.energies.interface_work -= kick * scratch.body_wrench[b].power(mean);
+    }
+    if (carries_sleeper(model, state, b)) {
+      const double kinetic = model.sleeper->kinetic(moved.X_WB, moved.V_WB);
+      state.energies.kinetic += kinetic;
+      state.energies.external_work += kinetic - model.sleeper->kinetic(start.X_WB, before);
+      continue;
     }
     move_nodes_of(body, moved, dt, state);
   }
@@ -352,7 +373,7 @@ Scratch::Scratch(const Model& model, int thread_count) : threads(thread_count) {
   body_wrench.resize(model.bodies.size());
   body_command.resize(model.bodies.size());
   held.resize(model.fixed.size());
-  node_sums.resize(node_chunk_count(model));
+  node_sums.resize(node_chunk_count(node_count));
 }
 
 StepReport compute_forces(const Model& model, State& state, Scratch& scratch) {
@@ -360,7 +381,7 @@ StepReport compute_forces(const Model& model, State& state, Scratch& scratch) {
   StepReport report = sum_blocks(model, state, scratch);
   contact_forces(model, state, scratch, report);
   nodal_loads(model, state, scratch);
-  gather_nodal_forces(model, scratch);
+  gather_nodal_forces(model, state, scratch);
   sum_body_wrenches(model, state, scratch);
   return report;
 }

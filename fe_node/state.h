@@ -9,6 +9,7 @@
 #include "fe_node/energy.h"
 #include "fe_node/material/lanes.h"
 #include "fe_node/mesh/node_record.h"
+#include "fe_node/sleeper.h"
 
 namespace crosswalk::fe {
 
@@ -20,6 +21,7 @@ struct State {
   std::int64_t step = 0;   ///< steps done
   double last_dt = 0;      ///< s, of the step that led here
   double stable_step = 0;  ///< s, unscaled, of the last force evaluation; 0 before the first
+  std::int64_t awake_from = kAsleep;  ///< step at which a sleeper woke
   std::vector<NodeRecord> nodes;
   std::vector<Vec3> spin;           ///< nodal angular velocity at t - dt/2; empty without shells
   std::vector<BodyState> bodies;    ///< like Model::bodies

@@ -64,11 +64,50 @@ HeadNeckSpec read_head_neck_spec(ConfigTable table, const Anthropometry& subject
   return spec;
 }
 
-WindshieldSpec read_windshield(ConfigTable table) {
+namespace {
+
+/// Lower and upper edge and width from the car's profile; false when it has no windshield.
+bool take_pane(const VehicleFront& front, WindshieldSpec& spec) {
+  bool is_found = false;
+  for (const FrontFacet& facet : front.facets) {
+    if (facet.component != "windshield") continue;
+    if (!is_found) {
+      spec.lower_x = -facet.begin.x();
+      spec.lower_z = facet.begin.y();
+    }
+    spec.upper_x = -facet.end.x();
+    spec.upper_z = facet.end.y();
+    spec.width = 2 * facet.half_width;
+    is_found = true;
+  }
+  return is_found;
+}
+
+double cell_of(Fidelity fidelity) {
+  switch (fidelity) {
+    case Fidelity::Coarse:
+      return 0.020;
+    case Fidelity::Medium:
+      return 0.010;
+    case Fidelity::Fine:
+      return 0.005;  // as in [yu2020, App. A]
+  }
+  return 0.020;
+}
+
+}  // namespace
+
+std::optional<WindshieldSpec> read_windshield(ConfigTable table, const VehicleFront& front,
+                                              Fidelity fidelity) {
   WindshieldSpec spec;
-  spec.kind = chosen<WindshieldKind>(
-      table, "kind", {{"panel", WindshieldKind::Panel}, {"laminated", WindshieldKind::Laminated}},
-      "Sheet of the test buck, or glass and PVB.");
+  const std::string model = table.choice_or(
+      "model", {"rigid", "panel", "laminated"}, "rigid",
+      "rigid: the car's force curve; panel: the sheet of the test buck; laminated: glass and PVB.");
+  spec.kind = model == "laminated" ? WindshieldKind::Laminated : WindshieldKind::Panel;
+  spec.cell = cell_of(fidelity);
+  if (!take_pane(front, spec) && model != "rigid")
+    table.problem("model", "`rigid`, or an interface `buck` whose car has a component `windshield`",
+                  "`" + model + "` and no such component");
   const auto length = [&](std::string_view name, Range range, double fallback,
                           std::string_view doc) {
     return table.quantity_or(name, Dimension::Length, range, fallback, doc);
@@ -88,6 +127,7 @@ WindshieldSpec read_windshield(ConfigTable table) {
       length("glass_thickness", {1e-3, 0.01}, spec.glass_thickness, "Thickness of each glass ply.");
   spec.pvb_thickness =
       length("pvb_thickness", {2e-4, 5e-3}, spec.pvb_thickness, "Thickness of the interlayer.");
+  if (model == "rigid") return std::nullopt;
   return spec;
 }
 

@@ -70,21 +70,31 @@ PartSpec pane(const WindshieldSpec& spec) {
 
 }  // namespace
 
+double pane_height(const WindshieldSpec& spec) {
+  return std::hypot(spec.upper_x - spec.lower_x, spec.upper_z - spec.lower_z);
+}
+
+Pose pane_frame(const WindshieldSpec& spec) {
+  const Vec3 lower(spec.lower_x, 0, spec.lower_z), upper(spec.upper_x, 0, spec.upper_z);
+  Mat3 R;
+  R.col(0) = (upper - lower).normalized();
+  R.col(1) = Vec3::UnitY();
+  R.col(2) = R.col(0).cross(R.col(1));
+  return {Quat(R), lower};
+}
+
 ModelDraft build_windshield(const WindshieldSpec& spec) {
   ModelDraft draft;
   draft.title = "Crosswalk generated windshield";
-  const Vec3 lower(spec.lower_x, 0, spec.lower_z), upper(spec.upper_x, 0, spec.upper_z);
-  const double height = (upper - lower).norm();
-  const Vec3 along = (upper - lower) / height;
-  const Vec3 outwards = along.cross(Vec3::UnitY());
+  const double height = pane_height(spec);
+  const Pose frame = pane_frame(spec);
   const std::vector<double> up = cuts(height, spec.cell), across = cuts(spec.width, spec.cell);
   const int rows = static_cast<int>(up.size()), columns = static_cast<int>(across.size());
   for (const double t : up)
     for (const double s : across) {
       const double v = 2 * t / height - 1, u = 2 * s / spec.width - 1;
       const double bulge = spec.sagitta * std::max(0.0, 1 - u * u) * std::max(0.0, 1 - v * v);
-      draft.mesh.add_node(lower + t * along + (s - 0.5 * spec.width) * Vec3::UnitY() +
-                          bulge * outwards);
+      draft.mesh.add_node(frame * Vec3(t, s - 0.5 * spec.width, bulge));
     }
   constexpr int kPartOfRing[] = {part::kBlockBuck, part::kWindshieldBead, part::kWindshield};
   for (int i = 0; i + 1 < rows; ++i)
@@ -108,8 +118,10 @@ ModelDraft build_windshield(const WindshieldSpec& spec) {
                          .section = ShellSection{.thickness = 0.002, .points = 2},
                          .source = "nearly massless frame; the buck has the mass",
                          .grade = Grade::Estimate});
-  draft.part_sets = {{"windshield", {part::kWindshield}},
-                     {"windshield_contact", {part::kWindshield, part::kWindshieldBead}}};
+  draft.part_sets = {
+      {"windshield", {part::kWindshield}},
+      {"windshield_contact", {part::kWindshield, part::kWindshieldBead}},
+      {kWindshieldParts, {part::kWindshield, part::kWindshieldBead, part::kBlockBuck}}};
   return draft;
 }
 

@@ -6,6 +6,9 @@
 // its curve is not published, a mild steel sheet stands in [E]. laminated: two glass plies and PVB.
 #pragma once
 
+#include <string>
+
+#include "common/spatial.h"
 #include "fe_node/deck/deck.h"
 #include "fe_node/generate/part_spec.h"
 
@@ -26,7 +29,24 @@ struct WindshieldSpec {
 };
 
 ModelDraft build_windshield(const WindshieldSpec& spec);
-/// The deck alone; numbers start at a million (sections and sets at 8001), clear of the head's.
+/// Height of the pane along its slope, m.
+double pane_height(const WindshieldSpec& spec);
+/// Frame P of the pane in B: origin in the middle of the lower edge, x up along the pane, y across,
+/// z outwards.
+Pose pane_frame(const WindshieldSpec& spec);
+
+/// The deck alone; numbers start at a million (sections and sets at 8001), clear of the generated
+/// head's.
 Deck generate_windshield(const WindshieldSpec& spec);
+
+/// Titles in the joined deck.
+inline constexpr const char* kWindshieldFrame = "block_buck";
+inline constexpr const char* kWindshieldParts = "windshield_all";
+inline constexpr const char* kWindshieldContact = "head and windshield";
+
+/// Adds the windshield to a deck with a head, renumbered clear of it, and a surface contact of the
+/// two. Its nodes come last, in frame B. `head_surface`: title of the head's part set.
+void join_windshield(Deck& deck, const WindshieldSpec& spec, const std::string& head_surface,
+                     double friction);
 
 }  // namespace crosswalk::fe::generate

@@ -182,6 +182,9 @@ class BodyStage {
     body.name =
         record.title.empty() ? fmt::format("nodal rigid body {}", record.id.value) : record.title;
     body.nodes = c_.node_set(record.node_set, record.source);
+    const auto& driven = c_.options.driven_parts;
+    if (std::find(driven.begin(), driven.end(), body.name) != driven.end())
+      body.role = BodyRole::Driven;
     if (record.has_inertia) body.own = given_inertia(c_, record.inertia, record.source, record.id);
     c_.model().bodies.push_back(body);
   }

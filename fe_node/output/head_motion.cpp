@@ -6,9 +6,10 @@
 
 namespace crosswalk::fe {
 
-HeadMotion::HeadMotion(const Model& model, std::vector<int> nodes, const Vec3& origin)
-    : nodes_(std::move(nodes)), weight_(nodes_.size(), 1.0), origin_(origin) {
-  for (int n : nodes_) reference_.push_back(model.mesh.position[n] - origin);
+HeadMotion::HeadMotion(const Model& model, std::vector<int> nodes, const Pose& X_DH)
+    : nodes_(std::move(nodes)), weight_(nodes_.size(), 1.0), X_DH_(X_DH) {
+  const Pose X_HD = X_DH.inverse();
+  for (int n : nodes_) reference_.push_back(X_HD * model.mesh.position[n]);
 }
 
 HeadMotion::Fit HeadMotion::fit(const State& state) const {

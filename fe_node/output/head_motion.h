@@ -13,14 +13,14 @@ namespace crosswalk::fe {
 class HeadMotion {
  public:
   HeadMotion() = default;
-  /// `origin`: the reported point, deck frame; axes of the report are those of the deck.
-  HeadMotion(const Model& model, std::vector<int> nodes, const Vec3& origin);
+  /// `X_DH`: the reported point and axes in the deck's frame.
+  HeadMotion(const Model& model, std::vector<int> nodes, const Pose& X_DH);
 
   /// Acceleration is the mean over `interval` since the twist `before`.
   HeadSample sample(const State& state, std::int64_t t_ns, const Twist& before,
                     double interval) const;
   Twist twist(const State& state) const;
-  const Vec3& origin() const { return origin_; }
+  const Pose& frame() const { return X_DH_; }
 
  private:
   struct Fit {
@@ -32,7 +32,7 @@ class HeadMotion {
   std::vector<int> nodes_;
   std::vector<Vec3> reference_;
   std::vector<double> weight_;
-  Vec3 origin_ = Vec3::Zero();
+  Pose X_DH_;
 };
 
 /// Mass, centre and inertia of the elements and rigid parts of these parts and of point masses on

@@ -46,6 +46,7 @@ void write_state(const State& state, ByteWriter& writer) {
   writer.value(state.step);
   writer.value(state.last_dt);
   writer.value(state.stable_step);
+  writer.value(state.awake_from);
   writer.value(state.energies);
   writer.vector(state.nodes);
   writer.vector(state.spin);
@@ -65,6 +66,7 @@ void read_state(ByteReader& reader, State& state) {
   reader.value(read.step);
   reader.value(read.last_dt);
   reader.value(read.stable_step);
+  reader.value(read.awake_from);
   reader.value(read.energies);
   reader.vector(read.nodes);
   reader.vector(read.spin);

@@ -2,9 +2,11 @@
 #include "fe_node/generate/windshield.h"
 
 #include <numeric>
+#include <set>
 
 #include <gtest/gtest.h>
 
+#include "common/error.h"
 #include "fe_node/generate/mass_report.h"
 #include "fe_node/generate/part_ids.h"
 
@@ -59,6 +61,61 @@ TEST(Windshield, LaminateRuleFillsTheThickness) {
   EXPECT_NEAR(sum, 1, 1e-12);
   const double pvb = spec.pvb_thickness / (2 * spec.glass_thickness + spec.pvb_thickness);
   EXPECT_NEAR(moment, (1 - pvb * pvb * pvb) / 3, 1e-12);  // bending, but for the interlayer's own
+}
+
+/// A head of somebody's own: numbers where the generators' lie, and beyond.
+Deck own_deck() {
+  Deck deck;
+  deck.units = UnitSystem::MmKgMs;
+  deck.nodes.resize(1);
+  deck.nodes[0].id = DeckId(5'000'000);
+  deck.shells.resize(1);
+  deck.shells[0].id = DeckId(7'000'000);
+  deck.parts.resize(1);
+  deck.parts[0].id = DeckId(part::kWindshield);
+  deck.materials.resize(1);
+  deck.materials[0].id = DeckId(part::kBlockBuck);
+  deck.sets.resize(1);
+  deck.sets[0].kind = SetKind::Part;
+  deck.sets[0].id = DeckId(8003);
+  deck.sets[0].title = "skin";
+  deck.sets[0].ids = {DeckId(part::kWindshield)};
+  return deck;
+}
+
+TEST(Windshield, JoinsADeckClearOfItsNumbers) {
+  Deck deck = own_deck();
+  WindshieldSpec spec;
+  spec.cell = 0.1;
+  spec.units = deck.units;
+  join_windshield(deck, spec, "skin", 0.3);
+  const auto are_unique = [](const auto& records) {
+    std::set<int> ids;
+    for (const auto& record : records)
+      if (!ids.insert(record.id.value).second) return false;
+    return true;
+  };
+  EXPECT_TRUE(are_unique(deck.nodes));
+  EXPECT_TRUE(are_unique(deck.shells));
+  EXPECT_TRUE(are_unique(deck.parts));
+  EXPECT_TRUE(are_unique(deck.materials));
+  EXPECT_TRUE(are_unique(deck.sets));
+  EXPECT_EQ(deck.nodes.front().id, DeckId(5'000'000));  // the head's nodes stay first
+  ASSERT_EQ(deck.contacts.size(), 1u);
+  EXPECT_EQ(deck.contacts[0].slave.id, DeckId(8003));
+  std::set<int> parts;
+  for (const Part& p : deck.parts) parts.insert(p.id.value);
+  for (const ShellElement& shell : deck.shells)
+    EXPECT_TRUE(shell.id == DeckId(7'000'000) || parts.count(shell.part.value) > 0);
+  for (const DeckSet& set : deck.sets)
+    for (const DeckId id : set.ids) EXPECT_TRUE(parts.count(id.value)) << set.title;
+}
+
+TEST(Windshield, HeadSurfaceThatIsNotThereIsNamed) {
+  Deck deck = own_deck();
+  WindshieldSpec spec;
+  spec.cell = 0.1;
+  EXPECT_THROW(join_windshield(deck, spec, "scalp", 0.3), UserError);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "common/version.h"
 #include "launcher/check_command.h"
 #include "launcher/handover.h"
+#include "launcher/replay_command.h"
 #include "launcher/run_command.h"
 #include "launcher/spy_command.h"
 
@@ -59,6 +60,23 @@ CLI::App* define_run(CLI::App& app, RunRequest& request) {
   return run;
 }
 
+CLI::App* define_replay(CLI::App& app, ReplayRequest& request) {
+  CLI::App* replay = app.add_subcommand("replay", "Play a log back to the bus.");
+  replay->add_option("log", request.source, "Run folder, or any LCM event log")->required();
+  replay->add_option("--speed", request.speed, "Times the pace of the recording")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  replay
+      ->add_option("--to", request.to,
+                   "bus: whoever listens; spy: lcm-spy; recorder: a fresh recorder and its results")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"bus", "spy", "recorder"}));
+  replay->add_option("--out", request.out, "Folder of the fresh recorder; <run>/replay by default");
+  replay->add_option("--lcm-url", request.url, "LCM URL; by default one UDP port per run");
+  replay->add_flag("--isolate", request.is_isolated, "Keep the messages in a private network");
+  return replay;
+}
+
 std::vector<std::string> command_words(const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {"crosswalk"};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -83,6 +101,8 @@ ExitCode launcher_main(const std::vector<std::string>& arguments) {
   define_run(app, request)->callback([&] {
     action = [&] { return run_command(request, command_words(arguments)); };
   });
+  ReplayRequest played;
+  define_replay(app, played)->callback([&] { action = [&] { return replay_command(played); }; });
   std::string file, run;
   CLI::App* check = app.add_subcommand("check", "Report every mistake in a scenario or a deck.");
   check->add_option("file", file, "Name under scenarios/tests/, scenario file or keyword deck")

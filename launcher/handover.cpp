@@ -30,7 +30,6 @@ constexpr std::array kHandovers = {
     Handover{"report", "recorder", "one HTML page about a run"},
     Handover{"watch", "recorder", "live page of a run on localhost"},
     Handover{"export", "recorder", "channels in other formats"},
-    Handover{"replay", "recorder", "play a log back to the bus"},
     Handover{"broker", "coupler", "message broker for runs across networks"},
 };
 

@@ -17,12 +17,16 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "common/error.h"
+#include "common/protocol.h"
+
 namespace crosswalk {
 
 namespace {
 
 constexpr const char* kGroup = "239.255.76.67";  // LCM's default group
 constexpr int kProbeMs = 200;
+constexpr int kPortsTried = 100;
 
 class Socket {
  public:
@@ -165,6 +169,39 @@ std::string url_with_port(const std::string& url, int port) {
   const auto [begin, length] = port_digits(url);
   if (begin == std::string::npos) return url;
   return std::string(url).replace(begin, length, fmt::format("{}", port));
+}
+
+RunNetwork open_network(const std::string& url, bool is_isolated, const std::string& run_id) {
+  RunNetwork network{url.empty() ? default_lcm_url(run_id) : url};
+  const bool is_multicast = network.url.starts_with("udpm://");
+  if (!is_multicast && !is_isolated) return network;
+  const std::string defect = is_isolated ? "" : multicast_defect();
+  if (is_isolated || !defect.empty()) {
+    const std::string obstacle = enter_private_network();
+    if (!obstacle.empty())
+      throw ProtocolError(
+          ExitCode::NoTransport,
+          fmt::format("no UDP multicast on this machine ({}) and no private network ({});\nas "
+                      "root:  ip link set lo up && ip route add 224.0.0.0/4 dev lo",
+                      defect.empty() ? "not asked" : defect, obstacle));
+    fmt::print("{}: this run uses a private network; `crosswalk spy` looks into it\n",
+               is_isolated ? "isolated" : "no multicast route here (" + defect + ")");
+    network.is_private = true;
+  }
+  const int asked = port_of(network.url);
+  for (int port = asked; port != 0 && port < asked + kPortsTried; ++port) {
+    if (is_udp_port_free(port)) {
+      if (port != asked) fmt::print("port {} is in use; this run takes {}\n", asked, port);
+      network.url = url_with_port(network.url, port);
+      return network;
+    }
+    if (!url.empty()) {
+      fmt::print("port {} is in use by another process; messages of other runs are ignored\n",
+                 port);
+      return network;
+    }
+  }
+  return network;
 }
 
 }  // namespace crosswalk

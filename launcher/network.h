@@ -18,6 +18,16 @@ bool is_udp_port_free(int port);
 /// loopback and multicast route. Empty on success; else why not. The process must have one thread.
 std::string enter_private_network();
 
+/// Where the messages of a run or a replay go.
+struct RunNetwork {
+  std::string url;
+  bool is_private = false;  ///< this process and its children are alone in it
+};
+/// A URL on which traffic works: multicast on this machine, else a private network. `url` empty:
+/// the one of the run id, on the next free port. Says on stdout what is not as asked; throws
+/// ProtocolError{NoTransport} with the cure when there is neither.
+RunNetwork open_network(const std::string& url, bool is_isolated, const std::string& run_id);
+
 /// "udpm://239.255.76.67:PORT?..." with another port.
 std::string url_with_port(const std::string& url, int port);
 /// The port of a udpm URL, or 0.

@@ -87,8 +87,8 @@ Process::Process(ProcessSpec spec) : spec_(std::move(spec)) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  const int error = posix_spawn(&pid_, spec_.program.c_str(), &setup.files, &setup.attributes,
-                                argv.data(), environ);
+  const int error = posix_spawnp(&pid_, spec_.program.c_str(), &setup.files, &setup.attributes,
+                                 argv.data(), environ);
   if (pipe_ends[1] >= 0) close(pipe_ends[1]);
   output_ = pipe_ends[0];
   if (error != 0) {

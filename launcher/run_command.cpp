@@ -26,54 +26,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kPortsTried = 100;
-
-struct Transport {
-  std::string url;
-  bool is_private = false;
-};
-
-/// A URL on which the run's traffic works: multicast here, else in a private network.
-Transport open_network(const RunRequest& request, const std::string& run_id) {
-  Transport transport{request.url.empty() ? default_lcm_url(run_id) : request.url};
-  const bool is_multicast = transport.url.starts_with("udpm://");
-  if (!is_multicast && !request.is_isolated) return transport;
-  const std::string defect = request.is_isolated ? "" : multicast_defect();
-  if (request.is_isolated || !defect.empty()) {
-    const std::string obstacle = enter_private_network();
-    if (!obstacle.empty())
-      throw ProtocolError(
-          ExitCode::NoTransport,
-          fmt::format("no UDP multicast on this machine ({}) and no private network ({});\nas "
-                      "root:  ip link set lo up && ip route add 224.0.0.0/4 dev lo",
-                      defect.empty() ? "not asked" : defect, obstacle));
-    fmt::print("{}: this run uses a private network; `crosswalk spy` looks into it\n",
-               request.is_isolated ? "isolated" : "no multicast route here (" + defect + ")");
-    transport.is_private = true;
-  }
-  const int asked = port_of(transport.url);
-  for (int port = asked; port != 0 && port < asked + kPortsTried; ++port) {
-    if (is_udp_port_free(port)) {
-      if (port != asked) fmt::print("port {} is in use; this run takes {}\n", asked, port);
-      transport.url = url_with_port(transport.url, port);
-      return transport;
-    }
-    if (!request.url.empty()) {
-      fmt::print("port {} is in use by another process; messages of other runs are ignored\n",
-                 port);
-      return transport;
-    }
-  }
-  return transport;
-}
-
 /// Tells `crosswalk spy` where to look; there only while the run lives.
 class RunningMark {
  public:
-  RunningMark(const RunDirectory& directory, const Transport& transport)
+  RunningMark(const RunDirectory& directory, const RunNetwork& network)
       : file_(directory.root() / "running") {
-    std::ofstream(file_) << getpid() << ' ' << (transport.is_private ? "private" : "host") << ' '
-                         << transport.url << '\n';
+    std::ofstream(file_) << getpid() << ' ' << (network.is_private ? "private" : "host") << ' '
+                         << network.url << '\n';
   }
   ~RunningMark() {
     std::error_code ignored;
@@ -150,21 +109,20 @@ ExitCode run_command(const RunRequest& request, const std::vector<std::string>& 
 
   std::optional<LivePageProcess> live_page;
   if (request.is_watched) live_page.emplace(directory);
-  const Transport transport = open_network(request, run_id);
+  const RunNetwork network = open_network(request.url, request.is_isolated, run_id);
   fmt::print("{} ({}{}), {:g} ms from first contact, in {}\n", scenario.name,
              name_of(scenario.mode),
              scenario.has_fe() ? fmt::format(", {}", name_of(scenario.fidelity)) : "",
              1e3 * scenario.duration_s, directory.root().string());
   std::fflush(stdout);
 
-  const RunningMark mark(directory, transport);
+  const RunningMark mark(directory, network);
   catch_interrupts();
   signal(SIGPIPE, SIG_IGN);
   setenv("CROSSWALK_LAUNCHER", std::to_string(getpid()).c_str(), 1);
   ProgressDisplay display(stdout, isatty(STDOUT_FILENO) != 0 ? ProgressDisplay::Style::Live
                                                              : ProgressDisplay::Style::Plain);
-  Supervisor supervisor(process_specs(scenario, request, directory, run_id, transport.url),
-                        display);
+  Supervisor supervisor(process_specs(scenario, request, directory, run_id, network.url), display);
   const Verdict verdict = supervisor.run();
   if (verdict.code == ExitCode::Done) {
     print_file(directory.summary_text());

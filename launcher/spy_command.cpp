@@ -72,17 +72,28 @@ ExitCode spy_command(const std::string& wanted) {
     throw UserError(Problem{Place{folder.string()}, "spy", "the folder of a run that is running",
                             folder.empty() ? "none under runs/" : "one that is not",
                             "replay a finished one with `crosswalk replay`"});
+  if (run->is_private) join_network_of(run->launcher);
+  const ProcessSpec spy = spy_process(run->url);
+  hand_over(spy.program, spy.arguments);
+}
+
+ProcessSpec spy_process(const std::string& url) {
   const fs::path types =
       fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/crosswalk_types.jar";
   for (const fs::path& jar : {fs::path(kLcmJar), fs::path(kChartJar), types})
     if (!fs::exists(jar))
       throw UserError(Problem{Place{jar.string()}, "spy", "this Java archive", "none",
                               "install the packages of cmake/debian-packages.txt and build again"});
-  if (run->is_private) join_network_of(run->launcher);
-  setenv("LCM_DEFAULT_URL", run->url.c_str(), 1);
-  // The script lcm-spy of LCM 1.3.1 does not start under Java 17; this call does.
-  hand_over("java", {"-Djava.net.preferIPv4Stack=true", "-Xmx256m", "-cp",
-                     fmt::format("{}:{}:{}", kLcmJar, kChartJar, types.string()), "lcm.spy.Spy"});
+  ProcessSpec spec;
+  spec.name = "lcm-spy";
+  spec.program = "java";
+  // The script lcm-spy of LCM 1.3.1 does not start under Java 17; this call does. It knows a URL
+  // only from the environment.
+  setenv("LCM_DEFAULT_URL", url.c_str(), 1);
+  spec.arguments = {"-Djava.net.preferIPv4Stack=true", "-Xmx256m", "-cp",
+                    fmt::format("{}:{}:{}", kLcmJar, kChartJar, types.string()), "lcm.spy.Spy"};
+  spec.log = "/dev/null";
+  return spec;
 }
 
 }  // namespace crosswalk

@@ -62,23 +62,15 @@ TEST_F(RealRun, MultibodyRunsAreBitIdentical) {
   EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
 }
 
-TEST_F(RealRun, StockPlayerReplaysTheLogIntoAFreshRecorder) {
+TEST_F(RealRun, ReplayIntoAFreshRecorderGivesTheSameChannels) {
   complete("a", {"--mode", "multibody", "--until-ms", "3"});
-  const std::string url = "udpm://239.255.76.67:19998?ttl=0&recv_buf_size=4194304";
-  Launched recorder = call("recorder",
-                           {"run", "--scenario", (out("a") / "scenario.toml").string(), "--run-id",
-                            provenance("a", "run_id"), "--url", url, "--out", out("b").string()},
-                           "recorder");
-  ASSERT_TRUE(wait_for(kLong, [&] { return recorder.has_said("[recorder] info"); }));
-  std::this_thread::sleep_for(std::chrono::seconds(1));  // its subscriptions' self-test
-  Launched player("/usr/bin/lcm-logplayer",
-                  {"--lcm-url=" + url, (out("a") / "signals.lcmlog").string()},
-                  folder_.path() / "player.txt");
-  const auto played = player.wait(kLong);
-  ASSERT_TRUE(played && played->is_success()) << player.output();
-  const auto status = recorder.wait(kLong);
-  ASSERT_TRUE(status) << recorder.output();
-  EXPECT_TRUE(status->is_success()) << recorder.output();
+  Launched replay = call(
+      "crosswalk",
+      {"replay", out("a").string(), "--to", "recorder", "--isolate", "--out", out("b").string()},
+      "replay");
+  const auto status = replay.wait(kLong);
+  ASSERT_TRUE(status) << replay.output();
+  EXPECT_TRUE(status->is_success()) << replay.output();
   EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
 }
 

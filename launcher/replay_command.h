@@ -1,0 +1,24 @@
+// `crosswalk replay`: plays the log of a run back to the bus with the player of LCM, for lcm-spy,
+// for a fresh recorder, or for whoever listens.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "common/error.h"
+
+namespace crosswalk {
+
+struct ReplayRequest {
+  std::filesystem::path source;  ///< a run folder, or any LCM event log
+  double speed = 1;              ///< times the pace at which the messages were recorded
+  std::string to = "bus";        ///< bus, spy, or recorder
+  std::filesystem::path out;     ///< of the fresh recorder; empty: <run>/replay
+  std::string url;               ///< empty: one UDP port per run
+  bool is_isolated = false;      ///< private network asked for
+};
+
+/// Returns when the log has been played and, with a recorder, its results are written.
+ExitCode replay_command(const ReplayRequest& request);
+
+}  // namespace crosswalk

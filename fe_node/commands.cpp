@@ -1,6 +1,7 @@
 #include "fe_node/commands.h"
 
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 #include "fe_node/deck/deck_report.h"
 #include "fe_node/deck/keyword_reader.h"
 #include "fe_node/solve.h"
+#include "fe_node/validate/validate.h"
 
 namespace crosswalk::fe {
 namespace {
@@ -38,35 +40,65 @@ std::string energy_table(const SolveResult& r) {
 }  // namespace
 
 NodeCommand solve_command() {
-  return {"solve", "run a keyword deck alone", [](CLI::App& options) {
-            auto request = std::make_shared<SolveRequest>();
-            auto end_ms = std::make_shared<double>(0);
-            auto units = std::make_shared<std::string>();
-            request->folder = "solve";
-            options.add_option("deck", request->deck, "Keyword deck")->required();
-            options.add_option("--out", request->folder, "Folder of the results")
-                ->capture_default_str();
+  return {
+      "solve", "run a keyword deck alone", [](CLI::App& options) {
+        auto request = std::make_shared<SolveRequest>();
+        auto end_ms = std::make_shared<double>(0);
+        auto units = std::make_shared<std::string>();
+        request->folder = "solve";
+        options.add_option("deck", request->deck, "Keyword deck")->required();
+        options.add_option("--out", request->folder, "Folder of the results")
+            ->capture_default_str();
+        options.add_option("--threads", request->threads, "Threads; 0: all")
+            ->check(CLI::Range(0, 256));
+        options.add_option("--end-ms", *end_ms, "End time, ms; as the deck says by default")
+            ->check(CLI::PositiveNumber);
+        options.add_option("--units", *units,
+                           "Unit system, such as mm-t-s, if the deck states none");
+        options.add_flag("--accept-missing", request->accept_missing,
+                         "Run although keywords that change the physics are not understood");
+        options.add_option("--restart", request->restart, "restart.bin to go on from");
+        return [request, end_ms, units] {
+          request->end_time = 1e-3 * *end_ms;
+          if (request->threads == 0) request->threads = omp_get_max_threads();
+          if (!units->empty()) {
+            request->units = unit_system_from(*units);
+            if (request->units == UnitSystem::Unknown)
+              throw UserError(Problem{{}, "--units", "m-kg-s, mm-t-s, mm-kg-ms, ...", *units, {}});
+          }
+          const SolveResult result = solve_deck(*request);
+          std::cout << energy_table(result);
+          return ExitCode::Done;
+        };
+      }};
+}
+
+NodeCommand validate_command() {
+  return {"validate", "component tests of the finite-element models", [](CLI::App& options) {
+            using generate::Fidelity;
+            auto request = std::make_shared<validate::ValidateRequest>();
+            const std::map<std::string, Fidelity> sizes{{"coarse", Fidelity::Coarse},
+                                                        {"medium", Fidelity::Medium},
+                                                        {"fine", Fidelity::Fine}};
+            options.add_option("subject", request->subject, "head or neck")
+                ->required()
+                ->check(CLI::IsMember({"head", "neck"}));
+            options.add_option("cases", request->names, "Names of cases; all by default");
+            options.add_option("--fidelity", request->fidelity, "Mesh: coarse, medium or fine")
+                ->transform(CLI::CheckedTransformer(sizes));
+            options.add_option("--out", request->folder,
+                               "Folder of the results; runs/validate-<subject> by default");
             options.add_option("--threads", request->threads, "Threads; 0: all")
                 ->check(CLI::Range(0, 256));
-            options.add_option("--end-ms", *end_ms, "End time, ms; as the deck says by default")
-                ->check(CLI::PositiveNumber);
-            options.add_option("--units", *units,
-                               "Unit system, such as mm-t-s, if the deck states none");
-            options.add_flag("--accept-missing", request->accept_missing,
-                             "Run although keywords that change the physics are not understood");
-            options.add_option("--restart", request->restart, "restart.bin to go on from");
-            return [request, end_ms, units] {
-              request->end_time = 1e-3 * *end_ms;
+            std::string footer = "Cases:\n";
+            for (const validate::Case& c : validate::cases())
+              footer += fmt::format("  {:<5} {:<18} {}\n", c.subject, c.name, c.purpose);
+            options.footer(footer);
+            return [request] {
               if (request->threads == 0) request->threads = omp_get_max_threads();
-              if (!units->empty()) {
-                request->units = unit_system_from(*units);
-                if (request->units == UnitSystem::Unknown)
-                  throw UserError(
-                      Problem{{}, "--units", "m-kg-s, mm-t-s, mm-kg-ms, ...", *units, {}});
-              }
-              const SolveResult result = solve_deck(*request);
-              std::cout << energy_table(result);
-              return ExitCode::Done;
+              if (request->folder.empty()) request->folder = "runs/validate-" + request->subject;
+              return validate::run_validation(*request) == 0 ? ExitCode::Done
+                                                             : ExitCode::NumericalLimit;
             };
           }};
 }

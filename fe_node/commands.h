@@ -7,8 +7,9 @@
 
 namespace crosswalk::fe {
 
-NodeCommand solve_command();  ///< a keyword deck alone
-NodeCommand bench_command();  ///< speed of the solver on generated workloads
+NodeCommand solve_command();     ///< a keyword deck alone
+NodeCommand validate_command();  ///< component tests against experiments and closed forms
+NodeCommand bench_command();     ///< speed of the solver on generated workloads
 /// `check` of a keyword deck: the report of its contents, or UserError.
 void check_deck(const std::filesystem::path& file);
 

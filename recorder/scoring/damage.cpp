@@ -8,6 +8,7 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
+#include "common/damage_constants.h"
 #include "common/error.h"
 #include "recorder/scoring/brain_injury.h"
 
@@ -19,14 +20,13 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kRelativeTolerance = 1e-9;
 constexpr double kAbsoluteTolerance = 1e-12;  // m, m/s; peaks are of order 0.1 m
-constexpr double kBeta = 2.9903;              // 1/m [gabler2019]
 
 Mat3 stiffness() {
-  constexpr double kXx = 32142, kYy = 23493, kZz = 16935, kXy = 0, kYz = 0, kXz = 1636.3;  // N/m
-  Mat3 K;
-  K << kXx + kXy + kXz, -kXy, -kXz,  //
-      -kXy, kXy + kYy + kYz, -kYz,   //
-      -kXz, -kYz, kXz + kYz + kZz;
+  constexpr double kXz = damage::kStiffnessXZ;
+  Mat3 K = Vec3(damage::kStiffness.data()).asDiagonal();
+  K(0, 0) += kXz;
+  K(2, 2) += kXz;
+  K(0, 2) = K(2, 0) = -kXz;
   return K;
 }
 
@@ -37,11 +37,10 @@ struct Oscillator {
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
 
   Oscillator() {
-    constexpr double kStiffnessDamping = 5.9148e-3;  // s, C = a1 K
     const Mat3 K = stiffness();
     A.topRightCorner<3, 3>() = Mat3::Identity();
     A.bottomLeftCorner<3, 3>() = -K;
-    A.bottomRightCorner<3, 3>() = -kStiffnessDamping * K;
+    A.bottomRightCorner<3, 3>() = -damage::kStiffnessDamping * K;
   }
 };
 
@@ -129,7 +128,7 @@ Damage damage(const VectorSeries& alpha) {
     oscillator.t1 = alpha.t[i];
     oscillator.from = at(i - 1);
     oscillator.to = at(i);
-    const Vec3 d = kBeta * integrator.advance(alpha.t[i]);
+    const Vec3 d = damage::kScale * integrator.advance(alpha.t[i]);
     result.x = std::max(result.x, std::abs(d.x()));
     result.y = std::max(result.y, std::abs(d.y()));
     result.z = std::max(result.z, std::abs(d.z()));

@@ -1,0 +1,36 @@
+#include "fe_node/validate/measure.h"
+
+namespace crosswalk::fe::validate {
+
+const char* name(Confidence confidence) {
+  switch (confidence) {
+    case Confidence::ClosedForm:
+      return "closed form";
+    case Confidence::High:
+      return "high";
+    case Confidence::Medium:
+      return "medium";
+    case Confidence::Low:
+      break;
+  }
+  return "low";
+}
+
+const char* name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Met:
+      return "met";
+    case Verdict::NotMet:
+      return "NOT met";
+    case Verdict::Context:
+      break;
+  }
+  return "context";
+}
+
+Verdict Measure::verdict() const {
+  if (confidence == Confidence::Low) return Verdict::Context;
+  return is_inside() ? Verdict::Met : Verdict::NotMet;
+}
+
+}  // namespace crosswalk::fe::validate

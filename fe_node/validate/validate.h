@@ -1,0 +1,48 @@
+// Component tests of the generated models against experiments and closed forms, on demand.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fe_node/generate/head_neck.h"
+#include "fe_node/validate/measure.h"
+
+namespace crosswalk::fe::validate {
+
+struct CaseContext {
+  generate::Fidelity fidelity = generate::Fidelity::Coarse;
+  int threads = 1;
+  std::filesystem::path folder;  ///< of this case: its deck, plots
+};
+
+struct Case {
+  std::string subject;  ///< head, neck
+  std::string name;
+  std::string purpose;
+  std::function<CaseResult(const CaseContext&)> run;
+};
+
+/// All cases, closed forms first.
+std::vector<Case> cases();
+
+struct ValidateRequest {
+  std::string subject;             ///< head, neck, windshield
+  std::vector<std::string> names;  ///< of cases; empty: all of the subject
+  generate::Fidelity fidelity = generate::Fidelity::Coarse;
+  int threads = 1;
+  std::filesystem::path folder;
+};
+
+/// Runs the cases, prints each table as it is ready and writes everything into the folder. Returns
+/// the number of closed forms missed.
+int run_validation(const ValidateRequest& request);
+
+// The cases, by file.
+CaseResult sphere_torsion(const CaseContext& context);
+CaseResult sphere_pressure(const CaseContext& context);
+CaseResult hardy_rotation(const CaseContext& context);
+CaseResult rotation_pulses(const CaseContext& context);
+
+}  // namespace crosswalk::fe::validate

@@ -1,9 +1,10 @@
-// The only place that knows LCM: one process's view of one run's traffic.
+// One process's view of one run's traffic.
 //
-// LCM is a lossy datagram bus. The gate in front of every handler drops what is not ours (size,
-// type hash, protocol, kind, run, sender) and counts it; reliability is built above (participant,
-// coupler, recorder). Handlers run inside wait(); what they throw is raised from wait(), never
-// through LCM's C code. publish() may be called from any thread, everything else from one.
+// The transport below, LCM, is a lossy datagram bus. The gate in front of every handler drops what
+// is not ours (size, type hash, protocol, kind, run, sender) and counts it; reliability is built
+// above (participant, coupler, recorder). Handlers run inside wait(); what they throw is raised
+// from wait(), never through LCM's C code. publish() may be called from any thread, everything else
+// from one.
 #pragma once
 
 #include <chrono>
@@ -19,14 +20,14 @@
 
 #include "common/messages.h"
 #include "common/protocol.h"
+#include "common/transport.h"
 #include "crosswalk/msg/header.hpp"
 
 namespace crosswalk {
 
-/// One LCM object. Processes own one; a test shares one in-memory transport among all nodes.
-class Transport;
-/// Throws ProtocolError{NoTransport} with the cure when LCM cannot start.
-std::shared_ptr<Transport> open_transport(const std::string& lcm_url);
+/// Processes own one transport; a test shares one in memory among all nodes. An LCM URL: udpm://,
+/// memq:// or tcpq://. Throws ProtocolError{NoTransport} with the cure when it cannot start.
+std::shared_ptr<Transport> open_transport(const std::string& url);
 std::shared_ptr<Transport> memory_transport();
 
 /// Injected faults, for tests. CROSSWALK_BUS_FAULTS="loss=0.05 duplicate=0.02 reorder=0.02
@@ -44,8 +45,7 @@ struct BusFaults {
 class Bus {
  public:
   using Clock = std::chrono::steady_clock;
-  using RawHandler = std::function<void(const std::string& channel, std::span<const std::byte> data,
-                                        std::int64_t received_us)>;
+  using RawHandler = MessageHandler;
 
   Bus(std::shared_ptr<Transport> transport, std::string run_id, Role role, BusFaults faults = {});
   ~Bus();

@@ -1,5 +1,6 @@
 // coupler: the hub of a run. `coupler run --scenario FILE --run-id ID`
 #include "common/node_main.h"
+#include "coupler/broker_command.h"
 #include "coupler/coupler_node.h"
 
 int main(int argc, char** argv) {
@@ -12,5 +13,5 @@ int main(int argc, char** argv) {
                   const Scenario& scenario) { coupling::read_coupling(document, scenario); },
        .run = coupling::run_coupler,
        .check_file = {},
-       .commands = {}});
+       .commands = {broker_command()}});
 }

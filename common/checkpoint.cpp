@@ -1,10 +1,12 @@
 #include "common/checkpoint.h"
 
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <string>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "common/error.h"
 
@@ -35,15 +37,16 @@ void write_file(const fs::path& path, const std::string& content) {
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
   const fs::path aside = path.string() + ".part";
-  {
-    std::ofstream out(aside, std::ios::binary);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
-    out.flush();
-    if (!out) {
-      throw ProtocolError(
-          ExitCode::CheckpointMismatch,
-          fmt::format("{}: cannot write the checkpoint; is the disk full?", path.string()));
-    }
+  std::FILE* out = std::fopen(aside.c_str(), "wb");
+  // On the disk before it gets its name, should the machine die.
+  bool is_written = out != nullptr &&
+                    std::fwrite(content.data(), 1, content.size(), out) == content.size() &&
+                    std::fflush(out) == 0 && fsync(fileno(out)) == 0;
+  if (out != nullptr) is_written = std::fclose(out) == 0 && is_written;
+  if (!is_written) {
+    throw ProtocolError(
+        ExitCode::CheckpointMismatch,
+        fmt::format("{}: cannot write the checkpoint; is the disk full?", path.string()));
   }
   fs::rename(aside, path);
 }

@@ -246,6 +246,7 @@ void FeNode::load_state(const std::vector<std::byte>& bytes) {
   if (!reader.is_at_end())
     throw ProtocolError(ExitCode::CheckpointMismatch, "the saved state is too long for this model");
   progress_ = done;
+  if (fields_) fields_->continue_after(run_.state.time);
 }
 
 }  // namespace crosswalk::fe

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include <unistd.h>
+
 #include "common/error.h"
 
 namespace crosswalk::recording {
@@ -110,6 +112,11 @@ void LogFollower::poll(const std::function<void(const LogEvent&)>& handler) {
     handler(event);
     at_ = std::ftell(file.get());
   }
+}
+
+void LogWriter::sync() {
+  flush();
+  if (fsync(fileno(file_.get())) != 0) fail(path_, "room on the disk", std::strerror(errno));
 }
 
 LogExtent read_log(const std::filesystem::path& path,

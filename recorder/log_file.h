@@ -39,6 +39,8 @@ class LogWriter {
   void write(std::int64_t time_us, const std::string& channel, std::span<const std::byte> data);
   /// Hands everything written so far to the operating system.
   void flush();
+  /// And to the disk, to outlive the machine.
+  void sync();
   std::int64_t events() const { return next_; }
   std::int64_t bytes() const { return bytes_; }
 

@@ -47,6 +47,8 @@ class Recorder {
   bool has_finish() const { return last_window_ >= -1; }
   /// Hands the log to the operating system.
   void flush() { log_.flush(); }
+  /// And to the disk, to outlive the machine.
+  void sync() { log_.sync(); }
   LogExtent extent() const { return {log_.events(), log_.bytes(), 0}; }
   std::int64_t messages() const { return log_.events(); }
   std::int64_t bytes() const { return log_.bytes(); }

@@ -39,7 +39,7 @@ void RecorderSession::on_control(const msg::run_control& control) {
   if (command == Command::Start) set_state(NodeState::Solving, -1);
   // The coupler asks again while something is missing.
   if (command == Command::Checkpoint && recorder_.gaps(1).empty()) {
-    recorder_.flush();
+    recorder_.sync();
     ByteWriter part;
     part.put(recorder_.extent());
     write_checkpoint({control.window, -1, 0, part.take()});

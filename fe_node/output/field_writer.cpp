@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -169,6 +170,22 @@ std::filesystem::path FieldWriter::write(const State& state) {
   index.close();
   require_written(index, folder_ / "fields.pvd");
   return name;
+}
+
+void FieldWriter::continue_after(double time) {
+  constexpr double kRounding = 1e-9;  // s; times in the index have nine digits
+  frames_.clear();
+  std::ifstream index(folder_ / "fields.pvd");
+  for (std::string line; std::getline(index, line);) {
+    Frame frame{};
+    char name[32] = {};
+    if (std::sscanf(line.c_str(), "<DataSet timestep=\"%lf\" file=\"%31[^\"]", &frame.time, name) ==
+            2 &&
+        frame.time < time + kRounding) {
+      frame.file = name;
+      frames_.push_back(frame);
+    }
+  }
 }
 
 }  // namespace crosswalk::fe

@@ -18,6 +18,8 @@ class FieldWriter {
   FieldWriter(const Model& model, std::filesystem::path folder);
   /// Returns the file written, relative to the folder. Throws UserError when the disk refuses.
   std::filesystem::path write(const State& state);
+  /// After a restart: goes on behind the frames that are in the folder up to this time, s.
+  void continue_after(double time);
 
  private:
   const Model& model_;

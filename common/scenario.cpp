@@ -51,7 +51,10 @@ std::vector<NodeSpec> read_nodes(ConfigTable root) {
   ConfigTable table = root.table("nodes", "Where the processes run when not all on this machine.");
   std::vector<NodeSpec> nodes;
   for (const char* name : kNodes)
-    nodes.push_back({name, table.text_or(name, "", "Host of this process, as ssh knows it.")});
+    nodes.push_back(
+        {name,
+         table.text_or(name, "", "Host of this process, as ssh knows it; this machine by default."),
+         table.place(name)});
   return nodes;
 }
 

@@ -31,6 +31,7 @@ struct InterfaceSpec {
 struct NodeSpec {
   std::string name;  ///< "mb_node", "fe_node", "coupler" or "recorder"
   std::string host;  ///< empty: this machine
+  Place place;
 };
 
 struct Scenario {

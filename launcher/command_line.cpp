@@ -11,6 +11,7 @@
 #include "launcher/check_command.h"
 #include "launcher/handover.h"
 #include "launcher/replay_command.h"
+#include "launcher/resume_command.h"
 #include "launcher/run_command.h"
 #include "launcher/spy_command.h"
 
@@ -37,6 +38,30 @@ std::string handover_help() {
   hand_over("ctest", arguments);
 }
 
+/// Options of `run` and `resume` alike: how the processes are started, not what they compute.
+void add_start_options(CLI::App& command, RunRequest& request) {
+  command.add_option("--threads", request.threads, "Threads of the finite-element solver")
+      ->check(CLI::Range(1, 256));
+  command.add_option("--lcm-url", request.url, "LCM URL; by default one UDP port per run");
+  command.add_option("--wait-s", request.wait_s, "Patience until every process has joined, s")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command.add_option("--on", request.on,
+                     "Processes on other machines, by ssh: fe=hostA,mb=hostB,coupler=...,"
+                     "recorder=... (docs/distributed.md)");
+  command.add_option("--remote-programs", request.remote_programs,
+                     "Folder of the programs on the other machines; as here by default");
+  command.add_option("--ttl", request.ttl, "Networks that multicast to other machines may cross")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 255));
+  command.add_flag("--tunnel", request.is_tunnelled,
+                   "Messages to other machines through ssh, by a broker on this one");
+  command.add_flag("--isolate", request.is_isolated, "Keep the messages in a private network");
+  command.add_flag("--watch", request.is_watched, "Serve a live page on localhost while it runs");
+  command.add_flag("--print-commands", request.is_printed_only,
+                   "Show the command of each process instead of starting them");
+}
+
 CLI::App* define_run(CLI::App& app, RunRequest& request) {
   CLI::App* run =
       app.add_subcommand("run", "Run a scenario: all processes, to the table of results.");
@@ -49,15 +74,16 @@ CLI::App* define_run(CLI::App& app, RunRequest& request) {
   run->add_option("--until-ms", request.until_ms, "End, simulated ms after first contact")
       ->check(CLI::PositiveNumber);
   run->add_option("--out", request.out, "Run folder; runs/<name>-<time> by default");
-  run->add_option("--threads", request.threads, "Threads of the finite-element solver")
-      ->check(CLI::Range(1, 256));
-  run->add_option("--lcm-url", request.url, "LCM URL; by default one UDP port per run");
-  run->add_option("--wait-s", request.wait_s, "Patience until every process has joined, s")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  run->add_flag("--isolate", request.is_isolated, "Keep the messages in a private network");
-  run->add_flag("--watch", request.is_watched, "Serve a live page on localhost while it runs");
+  add_start_options(*run, request);
   return run;
+}
+
+CLI::App* define_resume(CLI::App& app, RunRequest& request) {
+  CLI::App* resume = app.add_subcommand(
+      "resume", "Continue a run that ended early, from its latest checkpoint to the end.");
+  resume->add_option("run", request.scenario, "Run folder")->required();
+  add_start_options(*resume, request);
+  return resume;
 }
 
 CLI::App* define_replay(CLI::App& app, ReplayRequest& request) {
@@ -100,6 +126,10 @@ ExitCode launcher_main(const std::vector<std::string>& arguments) {
   RunRequest request;
   define_run(app, request)->callback([&] {
     action = [&] { return run_command(request, command_words(arguments)); };
+  });
+  RunRequest resumed;
+  define_resume(app, resumed)->callback([&] {
+    action = [&] { return resume_command(resumed, command_words(arguments)); };
   });
   ReplayRequest played;
   define_replay(app, played)->callback([&] { action = [&] { return replay_command(played); }; });

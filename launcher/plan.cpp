@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "launcher/handover.h"
+#include "launcher/remote.h"
 
 namespace crosswalk {
 
@@ -111,6 +112,22 @@ RunDirectory make_run_directory(const fs::path& out, const std::string& name) {
   return directory;
 }
 
+std::string commands_text(const std::vector<ProcessSpec>& specs, const RunDirectory& directory,
+                          const std::string& run_id) {
+  std::string text;
+  for (const ProcessSpec& spec : specs) {
+    if (spec.host.empty()) {
+      text += spec.command_text() + "\n";
+      continue;
+    }
+    const ProcessSpec there = in_remote_folder(spec, directory);
+    text += fmt::format("# on {0}, with {1} copied to {2}/ there:\ncd {2} && {3}\n", spec.host,
+                        directory.scenario().string(), remote_folder(run_id).string(),
+                        there.command_text());
+  }
+  return text;
+}
+
 std::vector<std::string> programs_of(const Scenario& scenario) {
   if (scenario.has_fe()) return {"coupler", "mb_node", "fe_node", "recorder"};
   return {"coupler", "mb_node", "recorder"};
@@ -123,7 +140,10 @@ std::vector<ProcessSpec> process_specs(const Scenario& scenario, const RunReques
   for (const std::string& name : programs_of(scenario)) {
     ProcessSpec spec;
     spec.name = name;
-    spec.program = sibling_program(name);
+    for (const NodeSpec& node : scenario.nodes)
+      if (node.name == name) spec.host = node.host;
+    const bool is_elsewhere = !spec.host.empty() && !request.remote_programs.empty();
+    spec.program = is_elsewhere ? fs::path(request.remote_programs) / name : sibling_program(name);
     spec.arguments = {"run",
                       "--scenario",
                       directory.scenario().string(),
@@ -135,6 +155,7 @@ std::vector<ProcessSpec> process_specs(const Scenario& scenario, const RunReques
                       directory.root().string(),
                       "--wait-s",
                       fmt::format("{}", request.wait_s)};
+    if (request.is_resumed) spec.arguments.emplace_back("--resume");
     if (request.threads > 0)
       spec.arguments.insert(spec.arguments.end(), {"--threads", std::to_string(request.threads)});
     spec.log = directory.log(name);

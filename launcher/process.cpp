@@ -37,9 +37,15 @@ struct SpawnSetup {
   SpawnSetup& operator=(const SpawnSetup&) = delete;
 };
 
-ExitStatus status_from(int raw) {
+/// A shell on another machine tells a signal as 128 plus its number; 255 is ssh's own failure.
+ExitStatus status_from(int raw, bool is_remote) {
+  constexpr int kShellSignal = 128, kSignals = 64;
   if (WIFSIGNALED(raw)) return {0, WTERMSIG(raw)};
-  return {WEXITSTATUS(raw), 0};
+  const int code = WEXITSTATUS(raw);
+  if (is_remote && code > kShellSignal && code <= kShellSignal + kSignals &&
+      code != static_cast<int>(ExitCode::Interrupted))
+    return {0, code - kShellSignal};
+  return {code, 0};
 }
 
 bool needs_quotes(const std::string& word) {
@@ -48,14 +54,14 @@ bool needs_quotes(const std::string& word) {
                              "YZ0123456789_-+=./:,@%") != std::string::npos;
 }
 
+}  // namespace
+
 std::string shell_word(const std::string& word) {
   if (!needs_quotes(word)) return word;
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
 }
-
-}  // namespace
 
 std::string ProcessSpec::command_text() const {
   std::string text = shell_word(program.string());
@@ -79,7 +85,14 @@ Process::Process(ProcessSpec spec) : spec_(std::move(spec)) {
   std::array<int, 2> pipe_ends = {-1, -1};
   if (spec_.is_output_piped && pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
     throw UserError(Problem{{}, "pipe", {}, std::strerror(errno), {}});
-  posix_spawn_file_actions_addopen(&setup.files, 0, "/dev/null", O_RDONLY, 0);
+  std::array<int, 2> input_ends = {-1, -1};
+  if (!spec_.host.empty()) {
+    if (pipe2(input_ends.data(), O_CLOEXEC) != 0)
+      throw UserError(Problem{{}, "pipe", {}, std::strerror(errno), {}});
+    posix_spawn_file_actions_adddup2(&setup.files, input_ends[0], 0);
+  } else {
+    posix_spawn_file_actions_addopen(&setup.files, 0, "/dev/null", O_RDONLY, 0);
+  }
   posix_spawn_file_actions_addopen(&setup.files, 2, spec_.log.c_str(), log_flags, 0644);
   posix_spawn_file_actions_adddup2(&setup.files, spec_.is_output_piped ? pipe_ends[1] : 2, 1);
   std::vector<std::string> words = {spec_.program.string()};
@@ -87,13 +100,17 @@ Process::Process(ProcessSpec spec) : spec_(std::move(spec)) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+  // ssh is looked for in PATH; our own programs have a folder.
   const int error = posix_spawnp(&pid_, spec_.program.c_str(), &setup.files, &setup.attributes,
                                  argv.data(), environ);
   if (pipe_ends[1] >= 0) close(pipe_ends[1]);
+  if (input_ends[0] >= 0) close(input_ends[0]);
   output_ = pipe_ends[0];
+  input_ = input_ends[1];
   if (error != 0) {
     pid_ = -1;
     if (output_ >= 0) close(output_);
+    if (input_ >= 0) close(input_);
     throw UserError(
         Problem{Place{spec_.program.string()}, "cannot be started", {}, std::strerror(error), {}});
   }
@@ -104,19 +121,23 @@ Process::Process(Process&& other) noexcept
     : spec_(std::move(other.spec_)),
       pid_(std::exchange(other.pid_, -1)),
       output_(std::exchange(other.output_, -1)),
+      input_(std::exchange(other.input_, -1)),
       status_(other.status_) {}
 
 Process::~Process() {
   if (is_running()) {
     send(SIGKILL);
+    abandon();
     wait();
   }
   if (output_ >= 0) close(output_);
+  if (input_ >= 0) close(input_);
 }
 
 const std::optional<ExitStatus>& Process::poll() {
   int raw = 0;
-  if (is_running() && waitpid(pid_, &raw, WNOHANG) == pid_) status_ = status_from(raw);
+  if (is_running() && waitpid(pid_, &raw, WNOHANG) == pid_)
+    status_ = status_from(raw, !spec_.host.empty());
   return status_;
 }
 
@@ -124,7 +145,7 @@ ExitStatus Process::wait() {
   int raw = 0;
   while (is_running()) {
     if (waitpid(pid_, &raw, 0) == pid_)
-      status_ = status_from(raw);
+      status_ = status_from(raw, !spec_.host.empty());
     else if (errno != EINTR)
       status_ = ExitStatus{static_cast<int>(ExitCode::Bug), 0};  // not our child: cannot be
   }
@@ -132,8 +153,18 @@ ExitStatus Process::wait() {
 }
 
 void Process::send(int signal_number) {
-  // A group of its own: what a node starts itself gets the signal as well.
-  if (is_running()) kill(-pid_, signal_number);
+  if (!is_running()) return;
+  if (spec_.host.empty()) {
+    // A group of its own: what a node starts itself gets the signal as well.
+    kill(-pid_, signal_number);
+    return;
+  }
+  const std::string line = fmt::format("{}\n", sigabbrev_np(signal_number));
+  if (input_ < 0 || write(input_, line.data(), line.size()) < 0) abandon();
+}
+
+void Process::abandon() {
+  if (is_running()) kill(-pid_, SIGKILL);
 }
 
 }  // namespace crosswalk

@@ -1,4 +1,5 @@
-// A child process in a process group of its own, its output in files or a pipe.
+// A child process in a process group of its own, its output in files or a pipe; or our end of a
+// process on another machine.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +17,12 @@ struct ProcessSpec {
   std::vector<std::string> arguments;
   std::filesystem::path log;         ///< takes standard error, and standard output unless piped
   bool is_output_piped = false;      ///< standard output comes to us
+  std::string host = {};             ///< of another machine: the program is a way to it (remote.h)
   std::string command_text() const;  ///< for copy and paste into a shell
 };
+
+/// Quoted for a shell where needed.
+std::string shell_word(const std::string& word);
 
 struct ExitStatus {
   int code = 0;    ///< when it left by itself
@@ -41,7 +46,10 @@ class Process {
   /// How it ended; looks, never waits.
   const std::optional<ExitStatus>& poll();
   ExitStatus wait();
+  /// To the process, also on another machine.
   void send(int signal_number);
+  /// Kills what runs here, should the other machine not answer any more.
+  void abandon();
   /// Reading end of the pipe, non-blocking; -1 when not piped.
   int output() const { return output_; }
 
@@ -49,6 +57,7 @@ class Process {
   ProcessSpec spec_;
   pid_t pid_ = -1;
   int output_ = -1;
+  int input_ = -1;  ///< writing end of the standard input of a process on another machine
   std::optional<ExitStatus> status_;
 };
 

@@ -137,6 +137,9 @@ void Supervisor::press_for_the_end() {
   } else if (pressure_ == 2 && elapsed > grace + (is_good_end ? kGrace : std::chrono::seconds(0))) {
     for (Process& process : processes_) process.send(SIGKILL);
     pressure_ = 3;
+  } else if (pressure_ == 3 && elapsed > 2 * grace) {
+    for (Process& process : processes_) process.abandon();
+    pressure_ = 4;
   }
 }
 

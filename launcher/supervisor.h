@@ -53,7 +53,7 @@ class Supervisor {
   std::optional<Failure> failure_;
   bool was_interrupted_ = false;
   std::optional<Clock::time_point> ending_since_;
-  int pressure_ = 0;  ///< 0 none, 1 coupler asked, 2 all asked, 3 killed
+  int pressure_ = 0;  ///< 0 none, 1 coupler asked, 2 all asked, 3 killed, 4 other machines given up
 };
 
 }  // namespace crosswalk

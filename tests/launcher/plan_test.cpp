@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "launcher/remote.h"
+
 namespace crosswalk {
 namespace {
 
@@ -74,6 +76,28 @@ TEST_F(Plan, RunFoldersAreNewAndNeverReused) {
   const RunDirectory asked = make_run_directory("mine", "x");
   std::ofstream(asked.scenario()) << "\n";
   EXPECT_THROW(make_run_directory("mine", "x"), UserError);
+}
+
+TEST_F(Plan, CommandsNameTheHostsOfOtherMachines) {
+  const RunDirectory directory("/runs/x");
+  const ProcessSpec here{"coupler", "/bin/coupler", {"run"}, {}, true};
+  ProcessSpec there{"fe_node", "/bin/fe_node", {"run", "--out", "/runs/x"}, {}, false};
+  there.host = "big";
+  EXPECT_EQ(commands_text({here, there}, directory, "x-1"),
+            "/bin/coupler run\n# on big, with /runs/x/scenario.toml copied to .crosswalk/x-1/ "
+            "there:\ncd .crosswalk/x-1 && /bin/fe_node run --out .\n");
+}
+
+TEST_F(Plan, HostsComeFromTheScenarioAndTheCommandLine) {
+  Scenario scenario;
+  load_scenario(find_scenario("zebra"), {}, scenario);
+  EXPECT_TRUE(hosts_of(scenario).empty());
+  place_nodes(scenario, "fe=big,recorder=store");
+  EXPECT_EQ(hosts_of(scenario), (std::set<std::string>{"big", "store"}));
+  place_nodes(scenario, "fe_node=local,mb=store");
+  EXPECT_EQ(hosts_of(scenario), (std::set<std::string>{"store"}));
+  for (const char* bad : {"fe", "fe=", "sun=big", "fe=-oProxyCommand=x"})
+    EXPECT_THROW(place_nodes(scenario, bad), UserError) << bad;
 }
 
 }  // namespace

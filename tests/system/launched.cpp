@@ -115,4 +115,13 @@ std::vector<pid_t> processes_with(const std::string& text) {
   return found;
 }
 
+std::vector<pid_t> processes_called(const std::string& name, const std::string& text) {
+  std::vector<pid_t> found = processes_with(text);
+  std::erase_if(found, [&](pid_t pid) {
+    const std::vector<std::string> words = command_line(pid);
+    return words.empty() || fs::path(words.front()).filename() != name;
+  });
+  return found;
+}
+
 }  // namespace crosswalk::system_test

@@ -50,5 +50,7 @@ class Launched {
 
 /// Process ids of all processes whose command line holds `text`.
 std::vector<pid_t> processes_with(const std::string& text);
+/// Of those, the ones whose program is called `name`.
+std::vector<pid_t> processes_called(const std::string& name, const std::string& text);
 
 }  // namespace crosswalk::system_test

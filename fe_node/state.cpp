@@ -1,6 +1,6 @@
 #include "fe_node/state.h"
 
-#include "fe_node/constraint/rigid_fit.h"
+#include "common/rigid_fit.h"
 #include "fe_node/model.h"
 
 namespace crosswalk::fe {

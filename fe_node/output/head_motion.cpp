@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fe_node/constraint/rigid_fit.h"
+#include "common/rigid_fit.h"
 
 namespace crosswalk::fe {
 

@@ -19,7 +19,9 @@ namespace {
 constexpr std::array kHandovers = {
     Handover{"solve", "fe_node", "run a keyword deck alone"},
     Handover{"validate", "fe_node", "component tests of the finite-element models"},
-    Handover{"bench", "fe_node", "speed of the solver; `bench coupling`: of an empty window"},
+    Handover{
+        "bench", "fe_node",
+        "speed of the solver; `bench coupling`, `rating`, `report RUN`, `live RUN`: of the rest"},
     Handover{"subject", "mb_node", "show or fill in a subject's measures"},
     Handover{"study", "mb_node", "many multibody runs over a range of parameters"},
     Handover{"view", "recorder", "still pictures of the pedestrian and the car"},
@@ -38,7 +40,11 @@ constexpr std::array kHandovers = {
 std::span<const Handover> handovers() { return kHandovers; }
 
 std::string_view program_for(std::string_view command, const std::vector<std::string>& arguments) {
-  if (command == "bench" && !arguments.empty() && arguments.front() == "coupling") return "coupler";
+  if (command == "bench" && !arguments.empty()) {
+    if (arguments.front() == "coupling") return "coupler";
+    for (const char* ours : {"rating", "report", "live"})
+      if (arguments.front() == ours) return "recorder";
+  }
   const auto found = std::find_if(kHandovers.begin(), kHandovers.end(),
                                   [&](const Handover& h) { return h.command == command; });
   return found == kHandovers.end() ? std::string_view{} : found->program;

@@ -107,7 +107,8 @@ void LogWriter::flush() {
 void LogFollower::poll(const std::function<void(const LogEvent&)>& handler) {
   const File file(std::fopen(path_.c_str(), "rb"), &std::fclose);
   LogEvent event;
-  if (!file || std::fseek(file.get(), at_, SEEK_SET) != 0) return;
+  // From the next sync word on: a resumed run cuts its log back and writes on.
+  if (!file || !seek_sync(file.get(), at_)) return;
   while (read_event(file.get(), event)) {
     handler(event);
     at_ = std::ftell(file.get());

@@ -85,74 +85,6 @@ ReportTable result_table(const std::vector<ComparedRun>& runs) {
   return table;
 }
 
-std::optional<double> cora_between(const RunChannels& reference, const RunChannels& simulation,
-                                   const RatedSignal& signal) {
-  const SignalRating rating =
-      rate_against_run({signal}, simulation.channels, reference.channels, {}).front();
-  return rating.cora ? std::optional(rating.cora->C) : std::nullopt;
-}
-
-/// Scores against the measured curves where there are any, in the layout of the paper's Table 3.
-ReportTable test_table(const std::vector<ComparedRun>& runs) {
-  ReportTable table{"CORA against the tests",
-                    "Total score C, default parameters; a dash where no measured curve is "
-                    "available.",
-                    {"signal"},
-                    {}};
-  for (const std::string& label : labels_of(runs)) table.columns.push_back(label);
-  table.columns.push_back("mean ± population deviation");
-  for (const RatedSignal& signal : rating_set({})) {
-    std::vector<std::string> cells{signal.label};
-    std::vector<double> scores;
-    for (const ComparedRun& run : runs) {
-      std::optional<double> score;
-      for (const SignalRating& r : run.analysis.summary.ratings) {
-        if (r.signal.channel == signal.channel && r.cora) score = r.cora->C;
-      }
-      if (score) scores.push_back(*score);
-      cells.push_back(formatted("{:.3f}", score));
-    }
-    const MeanDeviation all = mean_deviation(scores);
-    cells.push_back(scores.empty() ? "–" : fmt::format("{:.3f} ± {:.3f}", all.mean, all.deviation));
-    table.rows.push_back(cells);
-  }
-  return table;
-}
-
-/// Index of the first run of the same scenario.
-std::size_t first_of_scenario(const std::vector<ComparedRun>& runs, std::size_t i) {
-  for (std::size_t k = 0; k < i; ++k) {
-    if (scenario_of(runs[k]) == scenario_of(runs[i])) return k;
-  }
-  return i;
-}
-
-ReportTable mutual_table(const std::vector<ComparedRun>& runs) {
-  ReportTable table{"CORA of the runs against each other",
-                    "Each run against the first run of its scenario; 1 means equal curves. This is "
-                    "no validation.",
-                    {"signal"},
-                    {}};
-  const std::vector<std::string> labels = labels_of(runs);
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const std::size_t k = first_of_scenario(runs, i);
-    if (k == i) continue;
-    pairs.emplace_back(k, i);
-    table.columns.push_back(fmt::format("{} against {}", labels[i], labels[k]));
-  }
-  if (pairs.empty()) return table;
-  for (const RatedSignal& signal : rating_set({})) {
-    std::vector<std::string> cells{signal.label};
-    for (const auto& [k, i] : pairs) {
-      cells.push_back(formatted(
-          "{:.3f}", cora_between(runs[k].analysis.channels, runs[i].analysis.channels, signal)));
-    }
-    table.rows.push_back(cells);
-  }
-  return table;
-}
-
 std::vector<std::string> distinct(const std::vector<ComparedRun>& runs,
                                   const std::function<std::string(const ComparedRun&)>& key) {
   std::vector<std::string> out;
@@ -162,11 +94,121 @@ std::vector<std::string> distinct(const std::vector<ComparedRun>& runs,
   return out;
 }
 
+/// A column of CORA scores: one per signal of the set, and what they were rated against.
+struct ScoreColumn {
+  std::string label;
+  std::string kind;  ///< columns of one kind share a mean
+  std::vector<SignalRating> ratings;
+};
+
+/// Every run against the measured curves of its test; runs without curves have no column.
+std::vector<ScoreColumn> test_columns(const std::vector<ComparedRun>& runs,
+                                      const ComparisonSettings& settings) {
+  const std::vector<std::string> labels = labels_of(runs);
+  std::vector<ScoreColumn> columns;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto reference = reference_data(scenario_of(runs[i]));
+    if (!reference || reference->curves.empty()) continue;
+    columns.push_back({labels[i], mode_of(runs[i].analysis.summary),
+                       rate_against_curves(settings.set, runs[i].analysis.channels.channels,
+                                           reference->curves, settings.parameters)});
+  }
+  return columns;
+}
+
+/// Every run against the first run of its scenario.
+std::vector<ScoreColumn> mutual_columns(const std::vector<ComparedRun>& runs,
+                                        const ComparisonSettings& settings) {
+  const std::vector<std::string> labels = labels_of(runs);
+  std::vector<ScoreColumn> columns;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto first = std::find_if(runs.begin(), runs.end(), [&](const ComparedRun& run) {
+      return scenario_of(run) == scenario_of(runs[i]);
+    });
+    const auto k = static_cast<std::size_t>(first - runs.begin());
+    if (k == i) continue;
+    columns.push_back(
+        {fmt::format("{} against {}", labels[i], labels[k]), "all",
+         rate_against_run(settings.set, runs[i].analysis.channels.channels,
+                          first->analysis.channels.channels, labels[k], settings.parameters)});
+  }
+  return columns;
+}
+
+std::optional<double> score_of(const ScoreColumn& column, const RatedSignal& signal) {
+  for (const SignalRating& r : column.ratings) {
+    if (r.signal.channel == signal.channel && r.cora) return r.cora->C;
+  }
+  return std::nullopt;
+}
+
+/// Scores of one row over the columns, then the mean of every kind that has several.
+std::vector<std::string> score_cells(const std::vector<ScoreColumn>& columns,
+                                     const std::vector<std::string>& kinds,
+                                     const std::vector<std::optional<double>>& scores) {
+  std::vector<std::string> cells;
+  for (const auto& score : scores) cells.push_back(formatted("{:.3f}", score));
+  for (const std::string& kind : kinds) {
+    std::vector<double> known;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (columns[i].kind == kind && scores[i]) known.push_back(*scores[i]);
+    }
+    const MeanDeviation all = mean_deviation(known);
+    cells.push_back(known.empty() ? "–" : fmt::format("{:.3f} ± {:.3f}", all.mean, all.deviation));
+  }
+  return cells;
+}
+
+/// In the layout of the published table: a row per signal, a column per run, then the means.
+ReportTable score_table(const std::vector<ScoreColumn>& columns, const ComparisonSettings& settings,
+                        const char* title, const char* caption) {
+  ReportTable table{title, caption, {"signal"}, {}};
+  std::vector<std::string> kinds;
+  for (const ScoreColumn& column : columns) {
+    table.columns.push_back(column.label);
+    const auto like = [&column](const ScoreColumn& c) { return c.kind == column.kind; };
+    if (std::count_if(columns.begin(), columns.end(), like) > 1 &&
+        std::find(kinds.begin(), kinds.end(), column.kind) == kinds.end())
+      kinds.push_back(column.kind);
+  }
+  for (const std::string& kind : kinds)
+    table.columns.push_back(fmt::format("{}: mean ± deviation", kind));
+  for (const RatedSignal& signal : settings.set) {
+    std::vector<std::optional<double>> scores;
+    for (const ScoreColumn& column : columns) scores.push_back(score_of(column, signal));
+    table.rows.push_back(score_cells(columns, kinds, scores));
+    table.rows.back().insert(table.rows.back().begin(),
+                             signal.weight == 1
+                                 ? signal.label
+                                 : fmt::format("{} (weight {:g})", signal.label, signal.weight));
+  }
+  std::vector<std::optional<double>> means;
+  for (const ScoreColumn& column : columns)
+    means.push_back(weighted_mean(column.ratings, RatingMethod::Cora));
+  table.rows.push_back(score_cells(columns, kinds, means));
+  table.rows.back().insert(table.rows.back().begin(), "weighted mean of the signals");
+  return table;
+}
+
+/// A group of bars per signal, a bar per column [yu2020, Figure 7].
+BarChart score_bars(const std::vector<ScoreColumn>& columns, const ComparisonSettings& settings,
+                    const char* title) {
+  BarChart chart{title, "total score C [–]", {}, {}, {}};
+  for (const ScoreColumn& column : columns) chart.labels.push_back(column.label);
+  for (const RatedSignal& signal : settings.set) {
+    chart.groups.push_back(signal.label);
+    chart.values.emplace_back();
+    for (const ScoreColumn& column : columns)
+      chart.values.back().push_back(score_of(column, signal).value_or(kNoValue));
+  }
+  return chart;
+}
+
 /// One bar per model in each test; the last run of a kind stands when there are several.
-BarChart bar_chart(const std::vector<ComparedRun>& runs, const char* title, const char* unit,
+BarChart bar_chart(const std::vector<ComparedRun>& runs, const char* title, const char* axis,
                    const char* quantity) {
   BarChart chart{title,
-                 unit,
+                 axis,
                  distinct(runs, scenario_of),
                  distinct(runs, [](const ComparedRun& r) { return mode_of(r.analysis.summary); }),
                  {}};
@@ -182,20 +224,51 @@ BarChart bar_chart(const std::vector<ComparedRun>& runs, const char* title, cons
   return chart;
 }
 
-std::vector<ReportTable> tables_of(const std::vector<ComparedRun>& runs) {
+/// Characters of a UTF-8 text.
+std::size_t shown_width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+  }));
+}
+
+constexpr const char* kTestTitle = "CORA against the tests";
+constexpr const char* kMutualTitle = "CORA of the runs against each other";
+
+std::vector<ReportTable> tables_of(const std::vector<ComparedRun>& runs,
+                                   const ComparisonSettings& settings) {
   std::vector<ReportTable> tables{result_table(runs)};
-  const bool has_ratings = std::any_of(runs.begin(), runs.end(), [](const ComparedRun& run) {
-    return !run.analysis.summary.ratings.empty();
-  });
-  if (has_ratings) tables.push_back(test_table(runs));
-  ReportTable mutual = mutual_table(runs);
-  if (!mutual.rows.empty()) tables.push_back(std::move(mutual));
+  const std::vector<ScoreColumn> tests = test_columns(runs, settings);
+  if (!tests.empty()) {
+    tables.push_back(score_table(tests, settings, kTestTitle,
+                                 "Total score C; a dash where no measured curve is available. "
+                                 "Deviation: of the population, as in [yu2020, Table 3]."));
+  }
+  const std::vector<ScoreColumn> mutual = mutual_columns(runs, settings);
+  if (!mutual.empty()) {
+    tables.push_back(score_table(mutual, settings, kMutualTitle,
+                                 "Total score C of each run against the first run of its scenario; "
+                                 "1 means equal curves. This is no validation."));
+  }
   return tables;
+}
+
+std::vector<BarChart> bars_of(const std::vector<ComparedRun>& runs,
+                              const ComparisonSettings& settings) {
+  std::vector<BarChart> bars{
+      bar_chart(runs, "HIC15", "HIC15 [–]", "HIC15"),
+      bar_chart(runs, "Head contact time", "time after first leg contact [ms]",
+                "head_contact_time_ms")};
+  const std::vector<ScoreColumn> tests = test_columns(runs, settings);
+  if (!tests.empty()) bars.push_back(score_bars(tests, settings, kTestTitle));
+  const std::vector<ScoreColumn> mutual = mutual_columns(runs, settings);
+  if (!mutual.empty()) bars.push_back(score_bars(mutual, settings, kMutualTitle));
+  return bars;
 }
 
 }  // namespace
 
-ReportInput comparison_input(const std::vector<ComparedRun>& runs) {
+ReportInput comparison_input(const std::vector<ComparedRun>& runs,
+                             const ComparisonSettings& settings) {
   const std::vector<std::string> labels = labels_of(runs);
   ReportInput input;
   input.title = fmt::format("Comparison of {} runs", runs.size());
@@ -204,9 +277,8 @@ ReportInput comparison_input(const std::vector<ComparedRun>& runs) {
   input.story =
       "The same quantities of every run side by side; curves overlaid on the time after "
       "first leg contact of each.";
-  input.bars = {bar_chart(runs, "HIC15", "–", "HIC15"),
-                bar_chart(runs, "Head contact time", "ms", "head_contact_time_ms")};
-  input.tables = tables_of(runs);
+  input.bars = bars_of(runs, settings);
+  input.tables = tables_of(runs, settings);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Summary& s = runs[i].analysis.summary;
     input.curves.push_back(curve_set(runs[i].analysis.channels, labels[i],
@@ -221,21 +293,22 @@ ReportInput comparison_input(const std::vector<ComparedRun>& runs) {
   return input;
 }
 
-std::string comparison_text(const std::vector<ComparedRun>& runs) {
+std::string comparison_text(const std::vector<ComparedRun>& runs,
+                            const ComparisonSettings& settings) {
   std::string out;
-  for (const ReportTable& table : tables_of(runs)) {
+  for (const ReportTable& table : tables_of(runs, settings)) {
     std::vector<std::size_t> widths;
     const auto widen = [&widths](const std::vector<std::string>& cells) {
       widths.resize(std::max(widths.size(), cells.size()));
       for (std::size_t i = 0; i < cells.size(); ++i)
-        widths[i] = std::max(widths[i], cells[i].size());
+        widths[i] = std::max(widths[i], shown_width(cells[i]));
     };
     widen(table.columns);
     for (const auto& row : table.rows) widen(row);
     const auto line = [&widths](const std::vector<std::string>& cells) {
-      std::string text = fmt::format("  {:<{}}", cells[0], widths[0]);
+      std::string text = "  " + cells[0] + std::string(widths[0] - shown_width(cells[0]), ' ');
       for (std::size_t i = 1; i < cells.size(); ++i)
-        text += fmt::format("  {:>{}}", cells[i], widths[i]);
+        text += "  " + std::string(widths[i] - shown_width(cells[i]), ' ') + cells[i];
       return text + "\n";
     };
     out += table.title + "\n" + line(table.columns);

@@ -7,6 +7,7 @@
 
 #include "recorder/analysis.h"
 #include "recorder/report/report.h"
+#include "recorder/run_rating.h"
 
 namespace crosswalk::recording {
 
@@ -16,10 +17,18 @@ struct ComparedRun {
   Scene scene;  ///< drawn for the first run only
 };
 
-/// At least two runs. Runs of one scenario are rated against the first of them by CORA.
-ReportInput comparison_input(const std::vector<ComparedRun>& runs);
+/// What is rated and how; by default the five head signals, equal weights, CORA's own parameters.
+struct ComparisonSettings {
+  std::vector<RatedSignal> set = rating_set({});
+  RatingParameters parameters;
+};
+
+/// At least two runs. Runs of one scenario are also rated against the first of them.
+ReportInput comparison_input(const std::vector<ComparedRun>& runs,
+                             const ComparisonSettings& settings = {});
 
 /// The tables of the comparison for the terminal.
-std::string comparison_text(const std::vector<ComparedRun>& runs);
+std::string comparison_text(const std::vector<ComparedRun>& runs,
+                            const ComparisonSettings& settings = {});
 
 }  // namespace crosswalk::recording

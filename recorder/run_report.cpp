@@ -4,25 +4,26 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common/log.h"
+#include "recorder/description.h"
+#include "recorder/field_frame.h"
 #include "recorder/run_scene.h"
 #include "recorder/run_verdict.h"
 
 namespace crosswalk::recording {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 using nlohmann::json;
 
-json mb_description(const RunRecord& record) {
-  const auto found = record.description.find(Role::Mb);
-  if (found == record.description.end()) return json::object();
-  json parsed = json::parse(found->second, nullptr, false);
-  return parsed.is_object() ? parsed : json::object();
-}
+constexpr double kFrameReach = 1.5e-3;  // s; frames and strain samples come about every 1 ms
 
 std::string text_member(const json& object, const char* key) {
   const auto found = object.find(key);
@@ -71,7 +72,13 @@ std::string story_of(const Summary& s) {
   return story;
 }
 
-std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+/// A key as words: `head_contact_time_ms` becomes `head contact time ms`.
+std::string spaced(std::string key) {
+  std::replace(key.begin(), key.end(), '_', ' ');
+  return key;
+}
+
+std::string percent(double share) { return fmt::format("{:.1f}\u00a0%", 100 * share); }
 
 ReportTable rating_table(const Summary& s) {
   ReportTable table{
@@ -118,18 +125,61 @@ ReportTable risk_table(const Summary& s) {
   return table;
 }
 
+std::string label_of(const std::string& channel) {
+  for (const RatedSignal& signal : rating_set({})) {
+    if (signal.channel == channel) return signal.label;
+  }
+  return channel;
+}
+
+/// The layout of the published table: a row per signal, a column per model.
 ReportTable published_table(const Summary& s) {
-  ReportTable table{"Published scores of other models in this test",
-                    s.published_source,
-                    {"signal", "model", "CORA"},
-                    {}};
+  ReportTable table{
+      "Published CORA scores of other models in this test", s.published_source, {"signal"}, {}};
   for (const PublishedScore& p : s.published) {
-    table.rows.push_back({p.signal, p.model, fmt::format("{:.3f}", p.score)});
+    const std::string label = label_of(p.signal);
+    auto column = std::find(table.columns.begin() + 1, table.columns.end(), p.model);
+    if (column == table.columns.end()) column = table.columns.insert(column, p.model);
+    auto row = std::find_if(table.rows.begin(), table.rows.end(),
+                            [&label](const auto& cells) { return cells[0] == label; });
+    if (row == table.rows.end()) row = table.rows.insert(row, {label});
+    row->resize(std::max(row->size(), table.columns.size()));
+    (*row)[static_cast<std::size_t>(column - table.columns.begin())] =
+        fmt::format("{:.3f}", p.score);
   }
   return table;
 }
 
-std::optional<TissuePeak> tissue_of(const RunRecord& record, double t0) {
+/// Ids of the parts that are regions of the brain.
+std::set<int> brain_parts(const RunRecord& record) {
+  const std::vector<std::string> regions = run_names(record).regions;
+  std::set<int> ids;
+  const json fe = description_of(record, Role::Fe);
+  for (const json& part : fe.value("parts", json::array())) {
+    if (!part.is_object() || !part.contains("id") || !part["id"].is_number_integer()) continue;
+    if (std::find(regions.begin(), regions.end(), text_member(part, "name")) != regions.end())
+      ids.insert(part["id"].get<int>());
+  }
+  return ids;
+}
+
+/// Strain of the brain's elements at `t_ns`, when a field frame of that time stands beside the log.
+std::optional<StrainMap> strain_map(const RunRecord& record, const fs::path& fields,
+                                    std::int64_t t_ns) {
+  const auto frame = nearest_frame(fields, 1e-9 * static_cast<double>(t_ns), kFrameReach);
+  if (!frame) return std::nullopt;
+  const auto head = record.head.lower_bound(std::llround(1e9 * frame->t));
+  if (head == record.head.end()) return std::nullopt;
+  try {
+    StrainMap map = read_strain_map(frame->file, brain_parts(record), head->second.X_WH);
+    if (!map.centroids.empty()) return map;
+  } catch (const UserError& error) {
+    log_warning("no map of the brain strain: {}", error.what());
+  }
+  return std::nullopt;
+}
+
+std::optional<TissuePeak> tissue_of(const RunRecord& record, double t0, const fs::path& fields) {
   const std::vector<std::string> names = run_names(record).regions;
   const TissueSample* peak = nullptr;
   for (const auto& [t_ns, sample] : record.tissue) {
@@ -141,10 +191,11 @@ std::optional<TissuePeak> tissue_of(const RunRecord& record, double t0) {
   out.t = 1e-9 * static_cast<double>(peak->t_ns) - t0;
   for (std::size_t i = 0; i < peak->regions.size(); ++i) {
     const TissueSample::Region& r = peak->regions[i];
-    out.regions.push_back({i < names.size() ? names[i] : fmt::format("region {}", i), r.mps_max,
-                           r.mps_95, r.csdm_15, r.csdm_25, r.pressure_min, r.pressure_max,
-                           r.von_mises_95});
+    out.regions.push_back({i < names.size() ? spaced(names[i]) : fmt::format("region {}", i),
+                           r.mps_max, r.mps_95, r.csdm_15, r.csdm_25, r.pressure_min,
+                           r.pressure_max, r.von_mises_95});
   }
+  out.map = strain_map(record, fields, peak->t_ns);
   return out;
 }
 
@@ -176,9 +227,7 @@ std::vector<std::pair<std::string, std::string>> provenance_of(const Summary& s,
   const json provenance = json::parse(file, nullptr, false);
   if (!provenance.is_object()) return out;
   for (const auto& [key, value] : provenance.items()) {
-    std::string shown = key;
-    std::replace(shown.begin(), shown.end(), '_', ' ');
-    add_flat(out, shown, value);
+    add_flat(out, spaced(key), value);
   }
   return out;
 }
@@ -190,7 +239,7 @@ std::vector<Estimate> estimates_of(const Summary& s, const json& mb) {
   const json vehicle = object_member(mb, "vehicle");
   for (const json& c : vehicle.value("components", json::array())) {
     if (!c.is_object() || text_member(c, "provenance") == "published") continue;
-    components += (components.empty() ? "" : ", ") + text_member(c, "name");
+    components += (components.empty() ? "" : ", ") + spaced(text_member(c, "name"));
     if (text_member(c, "provenance") == "measured") components += " (measured)";
   }
   if (!components.empty()) {
@@ -199,7 +248,7 @@ std::vector<Estimate> estimates_of(const Summary& s, const json& mb) {
   }
   for (const BandVerdict& v : s.bands) {
     if (v.band.status == "published") continue;
-    out.push_back({"Band of " + v.band.quantity,
+    out.push_back({"Band: " + spaced(v.band.quantity),
                    fmt::format("{:g} – {:g}", v.band.low, v.band.high),
                    v.band.source.empty() ? v.band.status : v.band.status + "; " + v.band.source});
   }
@@ -241,7 +290,7 @@ CurveSet curve_set(const RunChannels& channels, const std::string& label, CurveO
 ReportInput report_input(const Analysis& analysis, const RunRecord& record,
                          const RunDirectory& directory) {
   const Summary& s = analysis.summary;
-  const json mb = mb_description(record);
+  const json mb = description_of(record, Role::Mb);
   ReportInput input;
   input.title =
       fmt::format("{}, {}", s.manifest.scenario.empty() ? "Run" : s.manifest.scenario, mode_of(s));
@@ -254,7 +303,7 @@ ReportInput report_input(const Analysis& analysis, const RunRecord& record,
   if (!s.ratings.empty()) input.tables.push_back(rating_table(s));
   if (!s.card.risks.empty()) input.tables.push_back(risk_table(s));
   if (!s.published.empty()) input.tables.push_back(published_table(s));
-  input.tissue = tissue_of(record, s.t0);
+  input.tissue = tissue_of(record, s.t0, directory.fields());
   input.scene = scene_of(record, s.t0);
   input.provenance = provenance_of(s, directory);
   input.estimates = estimates_of(s, mb);

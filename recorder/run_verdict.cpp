@@ -125,10 +125,14 @@ void add_injury(Rows& rows, const Summary& s) {
   if (s.card.rotation) add_rotation(rows, s);
   if (s.tissue.empty()) return;
   const RegionPeak& brain = s.tissue.front();
-  rows.add(kInjury, "Brain strain MPS95", fmt::format("{:.3f}", brain.mps_95_so_far), "").note =
-      fmt::format("95 % of {} stays below this first principal Green strain.", brain.region);
-  rows.add(kInjury, "CSDM 0.25", fmt::format("{:.1f}", 100 * brain.csdm_25), "%").note =
-      "Share of the brain that was ever strained beyond 0.25.";
+  VerdictRow& mps =
+      rows.add(kInjury, "Brain strain MPS95", fmt::format("{:.3f}", brain.mps_95_so_far), "");
+  mps.note = fmt::format("95 % of {} stays below this first principal Green strain.", brain.region);
+  mps.reading = "not validated";
+  VerdictRow& csdm =
+      rows.add(kInjury, "CSDM 0.25", fmt::format("{:.1f}", 100 * brain.csdm_25), "%");
+  csdm.note = "Share of the brain that was ever strained beyond 0.25.";
+  csdm.reading = "not validated";
 }
 
 void add_agreement(Rows& rows, const Summary& s) {
@@ -142,9 +146,10 @@ void add_agreement(Rows& rows, const Summary& s) {
     if (r.iso) row.band = fmt::format("ISO/TS 18571: {:.3f} ({})", r.iso->R, r.iso->grade);
   }
   if (!s.ratings.empty()) return;
-  rows.add(kAgreement, "CORA and ISO/TS 18571", "not rated", "").note =
-      "No measured curve of this test is available, so nothing is claimed; the bands above are all "
-      "that is compared.";
+  VerdictRow& row = rows.add(kAgreement, "CORA and ISO/TS 18571", "not rated", "");
+  row.note = std::string("No measured curve of this test is available, so nothing is claimed") +
+             (s.bands.empty() ? "." : "; the bands above are all that is compared.");
+  row.reading = "no curve";
 }
 
 void add_limited(Rows& rows, const char* label, double value, double limit, const char* unit,
@@ -158,7 +163,7 @@ void add_quality(Rows& rows, const Summary& s) {
   if (s.coupling && s.fe) {
     add_limited(
         rows, "Interface energy drift", s.coupling->drift_percent, 1, "%",
-        fmt::format("Work lost or gained where the two solvers meet, of {:.3g} J exchanged.",
+        fmt::format("Work lost or gained where the two solvers meet, of {:.0f} J exchanged.",
                     s.coupling->exchanged),
         3);
   }

@@ -30,9 +30,7 @@ using Action = std::function<ExitCode()>;
 Action define_rate(CLI::App& app) {
   auto parsed = std::make_shared<Parsed<RateRequest>>();
   RateRequest& r = parsed->request;
-  app.add_option("method", r.method, "cora or iso18571")
-      ->required()
-      ->check(CLI::IsMember({"cora", "iso18571"}));
+  app.add_option("method", r.method, "cora or iso18571")->required();
   app.add_option("files", r.files,
                  "PAIR.csv (columns t,ref,sim[,sigma]) or REF.csv SIM.csv (columns t,value)")
       ->expected(0, 2);
@@ -46,6 +44,10 @@ Action define_rate(CLI::App& app) {
   return [parsed] {
     return reported(parsed->form(), [&parsed] {
       const RateRequest& request = parsed->request;
+      if (request.method != "cora" && request.method != "iso18571") {
+        throw SignalError(SignalFault::BadParameter,
+                          "method: expected cora or iso18571, found " + request.method);
+      }
       const bool is_lone_reference = request.run.empty() && !request.reference_run.empty();
       if (is_lone_reference || request.run.empty() == request.files.empty()) {
         wrong_usage("rate", "PAIR.csv, or REF.csv SIM.csv, or --run A [--reference-run B]");
@@ -102,6 +104,9 @@ Action define_compare(CLI::App& app) {
   auto request = std::make_shared<CompareRequest>();
   app.add_option("runs", request->runs, "Two or more run folders")->required()->expected(2, 64);
   app.add_option("--out", request->out, "File")->capture_default_str();
+  app.add_option("--set", request->set,
+                 "TOML file of signals and weights (default: the five head signals)");
+  app.add_option("--parameters", request->parameters, "JSON object with CORA's parameters");
   return [request] { return reported(OutputForm::Text, [&request] { return compare(*request); }); };
 }
 
@@ -129,6 +134,13 @@ Action define_watch(CLI::App& app) {
   return [request] { return reported(OutputForm::Text, [&request] { return watch(*request); }); };
 }
 
+Action define_bench(CLI::App& app) {
+  auto request = std::make_shared<BenchRequest>();
+  app.add_option("what", request->what, "rating, report or live")->required();
+  app.add_option("run", request->run, "Run folder, for report and live");
+  return [request] { return reported(OutputForm::Text, [&request] { return bench(*request); }); };
+}
+
 }  // namespace
 
 std::vector<NodeCommand> commands() {
@@ -139,7 +151,8 @@ std::vector<NodeCommand> commands() {
           {"report", "One HTML page about a run.", define_report},
           {"compare", "Two or more runs side by side: table and HTML page.", define_compare},
           {"view", "Still pictures of a run.", define_view},
-          {"watch", "Live page of a run on localhost.", define_watch}};
+          {"watch", "Live page of a run on localhost.", define_watch},
+          {"bench", "Speed of rating, report and live page.", define_bench}};
 }
 
 }  // namespace crosswalk::recording

@@ -52,6 +52,8 @@ struct ReportRequest {
 struct CompareRequest {
   std::vector<std::filesystem::path> runs;
   std::filesystem::path out = "compare.html";
+  std::filesystem::path set;         ///< TOML rating set; empty: the paper's five signals
+  std::filesystem::path parameters;  ///< JSON of CORA parameters; may be empty
 };
 
 struct ViewRequest {
@@ -68,6 +70,11 @@ struct WatchRequest {
   bool ends_with_run = false;  ///< as `crosswalk run --watch` wants it
 };
 
+struct BenchRequest {
+  std::string what;           ///< "rating" or "report"
+  std::filesystem::path run;  ///< for "report"
+};
+
 ExitCode rate(const RateRequest& request, OutputForm form);
 /// Two runs against each other, or a run against its test's curves.
 ExitCode rate_runs(const RateRequest& request, const nlohmann::json& overrides, OutputForm form);
@@ -78,6 +85,10 @@ ExitCode report(const ReportRequest& request);
 ExitCode compare(const CompareRequest& request);
 ExitCode view(const ViewRequest& request);
 ExitCode watch(const WatchRequest& request);
+ExitCode bench(const BenchRequest& request);
+
+/// The JSON object of parameters in a file; an empty one when there is no file. Throws SignalError.
+nlohmann::json read_parameters(const std::filesystem::path& path);
 
 /// channels.csv of a run folder, made from its log when it is not there.
 std::vector<Channel> channels_of_run(const std::filesystem::path& run);

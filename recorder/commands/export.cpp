@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/run_directory.h"
+#include "common/units.h"
 #include "recorder/commands/commands.h"
 #include "recorder/export_csv.h"
 #include "recorder/head_motion.h"
@@ -44,8 +45,9 @@ MmeTest as_isomme(const fs::path& run, const std::vector<Channel>& channels) {
     test.channels.push_back(mme_constant("D0HICRCG15VH00RX", "HIC15", card.linear->HIC15.value));
     test.channels.push_back(mme_constant("D0HICRCG36VH00RX", "HIC36", card.linear->HIC36.value));
     if (card.linear->clip_single) {
-      MmeChannel clip = mme_constant("D0HEADCG3SVHACRX", "3 ms acceleration, one piece, in g",
-                                     card.linear->clip_single->value);
+      MmeChannel clip = mme_constant("D0HEADCG3SVHACRX", "3 ms acceleration, one piece",
+                                     kStandardGravity * card.linear->clip_single->value);
+      clip.unit = "m/(s*s)";
       test.channels.push_back(clip);
     }
   }

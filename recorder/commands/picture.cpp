@@ -1,5 +1,6 @@
 // What is made to be looked at: report, comparison, still pictures.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "common/interrupt.h"
@@ -9,6 +10,7 @@
 #include "recorder/run_compare.h"
 #include "recorder/run_report.h"
 #include "recorder/run_scene.h"
+#include "recorder/scoring/score_json.h"
 
 namespace crosswalk::recording {
 
@@ -52,6 +54,8 @@ ExitCode report(const ReportRequest& request) {
 }
 
 ExitCode compare(const CompareRequest& request) {
+  const ComparisonSettings settings{rating_set(request.set),
+                                    {cora_parameters(read_parameters(request.parameters)), {}}};
   std::vector<ComparedRun> runs;
   for (const fs::path& run : request.runs) {
     const Source source(run);
@@ -60,8 +64,8 @@ ExitCode compare(const CompareRequest& request) {
     runs.push_back({run.lexically_normal().filename().string(), std::move(analysis), {}});
     runs.back().scene = scene_of(record, runs.back().analysis.summary.t0);
   }
-  write_report(request.out, comparison_input(runs));
-  fmt::print("{}\nwritten: {}\n", comparison_text(runs), request.out.string());
+  write_report(request.out, comparison_input(runs, settings));
+  fmt::print("{}\nwritten: {}\n", comparison_text(runs, settings), request.out.string());
   return ExitCode::Done;
 }
 

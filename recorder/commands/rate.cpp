@@ -36,19 +36,6 @@ Pair read_pair(const std::vector<std::filesystem::path>& files) {
   return pair;
 }
 
-json read_parameters(const std::filesystem::path& path) {
-  if (path.empty()) return json::object();
-  std::ifstream in(path);
-  if (!in) {
-    throw SignalError(SignalFault::BadParameter, "parameters: cannot read " + path.string());
-  }
-  try {
-    return json::parse(in);
-  } catch (const json::parse_error& error) {
-    throw SignalError(SignalFault::BadParameter, path.string() + ": " + error.what());
-  }
-}
-
 void print_parameters(const ordered_json& parameters) {
   std::string line = "parameters:";
   for (const auto& [key, value] : parameters.items()) {
@@ -104,6 +91,19 @@ ExitCode rate_iso18571(Pair pair, const json& overrides, OutputForm form) {
 }
 
 }  // namespace
+
+json read_parameters(const std::filesystem::path& path) {
+  if (path.empty()) return json::object();
+  std::ifstream in(path);
+  if (!in) {
+    throw SignalError(SignalFault::BadParameter, "parameters: cannot read " + path.string());
+  }
+  try {
+    return json::parse(in);
+  } catch (const json::parse_error& error) {
+    throw SignalError(SignalFault::BadParameter, path.string() + ": " + error.what());
+  }
+}
 
 ExitCode rate(const RateRequest& request, OutputForm form) {
   const json overrides = read_parameters(request.parameters);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,10 +21,11 @@ constexpr std::array<Rgb, 9> kCividis{{{0, 34, 78},
                                        {165, 156, 116},
                                        {195, 179, 105},
                                        {254, 232, 56}}};
-constexpr int kPanel = 260;     // px, one cut
-constexpr int kGap = 12;        // px
-constexpr double kReach = 1.5;  // of the mean spacing
-constexpr double kMargin = 1.08;
+constexpr int kPanel = 260;               // px, one cut
+constexpr int kGap = 12;                  // px
+constexpr double kReach = 1.5;            // of the mean spacing
+constexpr double kMargin = 1.1;           // of the reach, around the centroids
+constexpr double kFullScaleShare = 0.98;  // of the elements lie on the scale; the rest is "more"
 
 struct Cut {
   int right, up, through;  ///< axes of the head frame
@@ -59,10 +61,10 @@ Image brain_map_image(const StrainMap& map, double full_scale) {
     high = high.cwiseMax(c);
   }
   const Vec3 middle = 0.5 * (low + high);
-  const double size = std::max(1e-6, (high - low).maxCoeff()) * kMargin;
   // Mean spacing from the volume of the ellipsoid that the centroids fill.
   const double volume = 0.52 * (high - low).cwiseMax(1e-6).prod();
   const double reach = kReach * std::cbrt(volume / static_cast<double>(map.centroids.size()));
+  const double size = (high - low).maxCoeff() + 2 * kMargin * reach;
   for (std::size_t panel = 0; panel < kCuts.size(); ++panel) {
     const Cut& cut = kCuts[panel];
     std::vector<double> nearest(static_cast<std::size_t>(kPanel) * kPanel, reach * reach);
@@ -94,13 +96,16 @@ Image brain_map_image(const StrainMap& map, double full_scale) {
 
 std::string brain_map_html(const StrainMap& map) {
   if (map.centroids.empty()) return "";
-  double largest = 0;
-  for (const double s : map.strain) largest = std::max(largest, s);
-  const double full_scale = std::max(0.05, std::ceil(largest * 20.0) / 20.0);
+  std::vector<double> sorted = map.strain;
+  std::sort(sorted.begin(), sorted.end());
+  const double high =
+      sorted[static_cast<std::size_t>(kFullScaleShare * static_cast<double>(sorted.size() - 1))];
+  const double full_scale = std::max(0.05, std::ceil(high * 20.0) / 20.0);
   std::string scale;
   for (int i = 0; i <= 4; ++i) {
-    scale += fmt::format("<span><i style='background:{};width:2.2em'></i>{:.2g}</span> ",
-                         css_colour(strain_colour(0.25 * i)), 0.25 * i * full_scale);
+    scale += fmt::format("<span><i style='background:{};width:2.2em'></i>{:.2g}{}</span> ",
+                         css_colour(strain_colour(0.25 * i)), 0.25 * i * full_scale,
+                         i == 4 ? " and more" : "");
   }
   return fmt::format(
       "<figure><img src='{}' alt='brain strain in three cuts'><figcaption>Cuts through the middle: "

@@ -34,6 +34,7 @@ struct Axis {
 
 constexpr double kWidth = 560, kHeight = 300;
 constexpr double kLeft = 66, kRight = 12, kTop = 30, kBottom = 44;
+constexpr double kLegendKey = 44, kLegendLetter = 6.1, kLegendRow = 16;
 constexpr int kColumns = 700;  // at most two points per column survive thinning
 
 std::string tick_text(double value, double step) {
@@ -124,18 +125,58 @@ std::string curve_svg(const Chart& chart, const ChartCurve& curve, const Axis& x
       style.dash.empty() ? "" : fmt::format(" stroke-dasharray='{}'", style.dash));
 }
 
-std::string legend_svg(const Chart& chart) {
-  std::string out;
+/// Where the legend's entries go: as many rows as they need, the drawing grows upwards by the rest.
+struct LegendPlaces {
+  std::vector<double> x;
+  std::vector<int> row;
+  int rows = 1;
+};
+
+LegendPlaces legend_places(const std::vector<std::string>& labels) {
+  LegendPlaces places;
   double x = kLeft;
-  for (const ChartCurve& curve : chart.curves) {
-    const LineStyle style = line_style(chart, curve);
+  for (const std::string& label : labels) {
+    const double width = kLegendKey + kLegendLetter * static_cast<double>(label.size());
+    if (x > kLeft && x + width > kWidth) {
+      x = kLeft;
+      ++places.rows;
+    }
+    places.x.push_back(x);
+    places.row.push_back(places.rows - 1);
+    x += width;
+  }
+  return places;
+}
+
+std::vector<std::string> labels_of(const Chart& chart) {
+  std::vector<std::string> labels;
+  for (const ChartCurve& curve : chart.curves) labels.push_back(curve.label);
+  return labels;
+}
+
+/// The opening of a drawing whose legend has `rows` rows.
+std::string svg_begin(const std::string& title, int rows) {
+  const double extra = kLegendRow * (rows - 1);
+  return fmt::format("<svg class='chart' viewBox='0 {} {} {}' role='img' aria-label='{}'>", -extra,
+                     kWidth, kHeight + extra, html_escaped(title));
+}
+
+double legend_y(const LegendPlaces& places, std::size_t i) {
+  return 12 - kLegendRow * (places.rows - 1 - places.row[i]);
+}
+
+std::string legend_svg(const Chart& chart, const LegendPlaces& places) {
+  std::string out;
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    const LineStyle style = line_style(chart, chart.curves[i]);
+    const double x = places.x[i];
+    const double y = legend_y(places, i);
     out += fmt::format(
-        "<line x1='{:.0f}' x2='{:.0f}' y1='12' y2='12' stroke='{}' stroke-width='{}'{}/>"
-        "<text class='legend' x='{:.0f}' y='16'>{}</text>",
-        x, x + 24, style.colour, style.width,
-        style.dash.empty() ? "" : fmt::format(" stroke-dasharray='{}'", style.dash), x + 28,
-        html_escaped(curve.label));
-    x += 44 + 6.1 * static_cast<double>(curve.label.size());
+        "<line x1='{:.0f}' x2='{:.0f}' y1='{}' y2='{}' stroke='{}' stroke-width='{}'{}/>"
+        "<text class='legend' x='{:.0f}' y='{}'>{}</text>",
+        x, x + 24, y, y, style.colour, style.width,
+        style.dash.empty() ? "" : fmt::format(" stroke-dasharray='{}'", style.dash), x + 28, y + 4,
+        html_escaped(chart.curves[i].label));
   }
   return out;
 }
@@ -150,6 +191,23 @@ void equalise(Axis& x, Axis& y) {
   const double half = 0.5 * (spare.high - spare.low) * factor;
   spare.low = middle - half;
   spare.high = middle + half;
+}
+
+/// Three digits, and no more decimals than needed: 1545, 134, 0.971.
+std::string bar_text(double value) {
+  return std::abs(value) >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
+/// A label under the axis, on two lines when it has two words or more.
+std::string group_label_svg(double x, double y, const std::string& label) {
+  const std::size_t middle = label.find(' ');
+  std::string out;
+  for (int line = 0; line < (middle == std::string::npos ? 1 : 2); ++line) {
+    const std::string text = line == 0 ? label.substr(0, middle) : label.substr(middle + 1);
+    out += fmt::format("<text class='tick' x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>", x,
+                       y + 13 * line, html_escaped(text));
+  }
+  return out;
 }
 
 }  // namespace
@@ -168,9 +226,8 @@ std::string chart_svg(const Chart& chart) {
   y.from_px = kHeight - kBottom;
   y.to_px = kTop;
   if (chart.is_trajectory) equalise(x, y);
-  std::string out =
-      fmt::format("<svg class='chart' viewBox='0 0 {} {}' role='img' aria-label='{}'>", kWidth,
-                  kHeight, html_escaped(chart.title));
+  const LegendPlaces legend = legend_places(labels_of(chart));
+  std::string out = svg_begin(chart.title, legend.rows);
   out += axes_svg(x, y, chart.x_label, chart.y_label);
   for (const TimeMark& mark : chart.marks) {
     if (mark.t < x.low || mark.t > x.high) continue;
@@ -184,7 +241,7 @@ std::string chart_svg(const Chart& chart) {
   for (auto it = chart.curves.rbegin(); it != chart.curves.rend(); ++it) {
     out += curve_svg(chart, *it, x, y);
   }
-  return out + legend_svg(chart) + "</svg>";
+  return out + legend_svg(chart, legend) + "</svg>";
 }
 
 std::string bar_chart_svg(const BarChart& chart) {
@@ -202,10 +259,10 @@ std::string bar_chart_svg(const BarChart& chart) {
   x.to_px = kWidth - kRight;
   y.from_px = kHeight - kBottom;
   y.to_px = kTop;
-  Chart style;  // bars take the colours of runs
-  std::string out =
-      fmt::format("<svg class='chart' viewBox='0 0 {} {}' role='img' aria-label='{}'>", kWidth,
-                  kHeight, html_escaped(chart.title));
+  Chart style;
+  style.components = static_cast<int>(chart.labels.size()) + 1;  // apart in grey, as components
+  const LegendPlaces legend = legend_places(chart.labels);
+  std::string out = svg_begin(chart.title, legend.rows);
   for (const double v : axis_ticks(y.low, y.high, 5)) {
     out += fmt::format(
         "<line class='grid' x1='{1:.1f}' x2='{2:.1f}' y1='{0:.1f}' y2='{0:.1f}'/>"
@@ -220,31 +277,28 @@ std::string bar_chart_svg(const BarChart& chart) {
       const double wide = x.px(bar) - x.px(0);
       if (!std::isfinite(v)) continue;
       ChartCurve curve;
-      curve.set = static_cast<int>(b);
+      curve.component = static_cast<int>(b);
       out += fmt::format(
           "<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='{}' stroke='#222'/>"
-          "<text class='tick' x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:.4g}</text>",
+          "<text class='tick' x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>",
           left, y.px(v), wide - 2, y.from_px - y.px(v), line_style(style, curve).colour,
-          left + 0.5 * wide, y.px(v) - 4, v);
+          left + 0.5 * wide, y.px(v) - 4, bar_text(v));
     }
-    out += fmt::format("<text class='tick' x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>",
-                       x.px(static_cast<double>(g) + 0.5), y.from_px + 16,
-                       html_escaped(chart.groups[g]));
+    out += group_label_svg(x.px(static_cast<double>(g) + 0.5), y.from_px + 16, chart.groups[g]);
   }
-  double legend = kLeft;
   for (std::size_t b = 0; b < chart.labels.size(); ++b) {
     ChartCurve curve;
-    curve.set = static_cast<int>(b);
+    curve.component = static_cast<int>(b);
     out += fmt::format(
-        "<rect x='{:.0f}' y='5' width='14' height='12' fill='{}' stroke='#222'/>"
-        "<text class='legend' x='{:.0f}' y='16'>{}</text>",
-        legend, line_style(style, curve).colour, legend + 19, html_escaped(chart.labels[b]));
-    legend += 36 + 6.1 * static_cast<double>(chart.labels[b].size());
+        "<rect x='{:.0f}' y='{}' width='14' height='12' fill='{}' stroke='#222'/>"
+        "<text class='legend' x='{:.0f}' y='{}'>{}</text>",
+        legend.x[b], legend_y(legend, b) - 7, line_style(style, curve).colour, legend.x[b] + 19,
+        legend_y(legend, b) + 4, html_escaped(chart.labels[b]));
   }
   out += fmt::format(
       "<text class='axis' transform='translate(14 {:.1f}) rotate(-90)' "
       "text-anchor='middle'>{}</text>",
-      0.5 * (y.from_px + y.to_px), html_escaped(chart.title + " [" + chart.unit + "]"));
+      0.5 * (y.from_px + y.to_px), html_escaped(chart.axis));
   return out + "</svg>";
 }
 

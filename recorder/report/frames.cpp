@@ -159,7 +159,8 @@ std::vector<double> default_still_times(const Scene& scene) {
   if (scene.frames.empty()) return times;
   constexpr double kStep = 0.040;
   constexpr double kLast = 0.200;  // [yu2020, Appendix B]: leg contact to 200 ms
-  for (int i = 0; i * kStep <= std::min(kLast, scene.frames.back().t) + 1e-9; ++i) {
+  constexpr double kReach = 2e-3;  // a run to 200 ms has its last poses up to 1 ms before
+  for (int i = 0; i * kStep <= std::min(kLast, scene.frames.back().t + kReach) + 1e-9; ++i) {
     times.push_back(i * kStep);
   }
   return times;

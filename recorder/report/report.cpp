@@ -156,8 +156,8 @@ data tissue(const TissuePeak& peak) {
     entry.set("name", r.name);
     entry.set("mps_95", fmt::format("{:.3f}", r.mps_95));
     entry.set("mps_max", fmt::format("{:.3f}", r.mps_max));
-    entry.set("csdm_15", fmt::format("{:.1f} %", 100 * r.csdm_15));
-    entry.set("csdm_25", fmt::format("{:.1f} %", 100 * r.csdm_25));
+    entry.set("csdm_15", fmt::format("{:.1f}\u00a0%", 100 * r.csdm_15));
+    entry.set("csdm_25", fmt::format("{:.1f}\u00a0%", 100 * r.csdm_25));
     entry.set("pressure",
               fmt::format("{:.0f}, {:.0f}", 1e-3 * r.pressure_min, 1e-3 * r.pressure_max));
     entry.set("von_mises", fmt::format("{:.1f}", 1e-3 * r.von_mises_95));
@@ -230,7 +230,7 @@ void add_section(data& sections, bool is_there, const char* id, const char* name
 
 data section_links(const ReportInput& input, bool has_charts) {
   data sections = list();
-  add_section(sections, true, "verdict", "Verdict");
+  add_section(sections, !input.verdict.empty(), "verdict", "Verdict");
   add_section(sections, !input.bars.empty(), "comparison", "Comparison");
   add_section(sections, !input.tables.empty(), "tables", "Scores");
   add_section(sections, has_charts, "curves", "Curves");

@@ -57,7 +57,7 @@ struct ReportTable {
 /// Bars per group and run with optional band, such as HIC15 by model (paper's Figure 8).
 struct BarChart {
   std::string title;
-  std::string unit;
+  std::string axis;  ///< quantity and unit: "score C [–]"
   std::vector<std::string> groups;
   std::vector<std::string> labels;          ///< one per bar inside a group
   std::vector<std::vector<double>> values;  ///< [group][bar]; NaN: not available

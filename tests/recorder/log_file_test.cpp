@@ -90,5 +90,36 @@ TEST_F(LogFileTest, AMissingFileIsTheUsersError) {
   EXPECT_THROW(LogWriter("/nowhere/at.all"), UserError);
 }
 
+TEST_F(LogFileTest, AFollowerSeesEveryEventOnceHoweverTheFileGrows) {
+  write(20);
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  fs::remove(path);
+  LogFollower follower(path);
+  std::vector<std::int64_t> numbers;
+  const auto look = [&] { follower.poll([&](const LogEvent& e) { numbers.push_back(e.number); }); };
+  look();  // there is no file yet
+  std::ofstream out(path, std::ios::binary);
+  for (std::size_t at = 0; at < bytes.size(); at += 37) {
+    out << bytes.substr(at, 37) << std::flush;
+    look();
+  }
+  ASSERT_EQ(numbers.size(), 20U);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(numbers[static_cast<std::size_t>(i)], i);
+}
+
+TEST_F(LogFileTest, AFollowerGoesOnWhenAResumedRunHasCutTheLogBack) {
+  write(20);
+  LogFollower follower(path);
+  std::vector<std::int64_t> numbers;
+  follower.poll([&](const LogEvent& e) { numbers.push_back(e.number); });
+  write(9);  // shorter than before, then beyond
+  follower.poll([&](const LogEvent& e) { numbers.push_back(e.number); });
+  write(40);
+  follower.poll([&](const LogEvent& e) { numbers.push_back(e.number); });
+  ASSERT_GT(numbers.size(), 30U);
+  EXPECT_EQ(numbers.back(), 39);
+}
+
 }  // namespace
 }  // namespace crosswalk::recording

@@ -1,6 +1,12 @@
 // From a record to what the report shows: scene, verdict, comparison.
 #include "recorder/run_report.h"
 
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +16,8 @@
 
 namespace crosswalk::recording {
 namespace {
+
+namespace fs = std::filesystem;
 
 using testing::Contains;
 using testing::Field;
@@ -82,8 +90,7 @@ const VerdictRow& row_of(const ReportInput& input, const std::string& label) {
 
 TEST(RunReport, VerdictTellsContactAndQuality) {
   const RunRecord record = record_of(true);
-  const ReportInput input =
-      report_input(analyze_record(record), record, RunDirectory("nowhere"));
+  const ReportInput input = report_input(analyze_record(record), record, RunDirectory("nowhere"));
   EXPECT_EQ(row_of(input, "Head contact time").value, "10.0");
   EXPECT_EQ(row_of(input, "Interface energy drift").status, Verdict::Good);
   EXPECT_EQ(row_of(input, "Record").status, Verdict::Good);
@@ -95,8 +102,7 @@ TEST(RunReport, VerdictTellsContactAndQuality) {
 
 TEST(RunReport, WithoutMeasuredCurvesNothingIsRated) {
   const RunRecord record = record_of(false);
-  const ReportInput input =
-      report_input(analyze_record(record), record, RunDirectory("nowhere"));
+  const ReportInput input = report_input(analyze_record(record), record, RunDirectory("nowhere"));
   EXPECT_EQ(row_of(input, "CORA and ISO/TS 18571").value, "not rated");
   EXPECT_FALSE(input.tissue);
 }
@@ -104,14 +110,69 @@ TEST(RunReport, WithoutMeasuredCurvesNothingIsRated) {
 TEST(RunCompare, EqualRunsScoreOneAndShareTheirBars) {
   const std::vector<ComparedRun> runs{{"a", analysis_of(false), {}}, {"b", analysis_of(true), {}}};
   const ReportInput input = comparison_input(runs);
-  ASSERT_EQ(input.bars.size(), 2U);
+  ASSERT_EQ(input.bars.size(), 3U);
   EXPECT_EQ(input.bars[0].groups.size(), 1U);
   EXPECT_EQ(input.bars[0].labels, (std::vector<std::string>{"multibody", "coupled"}));
+  EXPECT_EQ(input.bars[2].groups.size(), 5U);  // a group per signal
+  EXPECT_NEAR(input.bars[2].values[0][0], 1, 1e-12);
   EXPECT_THAT(comparison_text(runs), HasSubstr("HIC15"));
   const ReportTable& mutual = input.tables.back();
-  ASSERT_EQ(mutual.rows.size(), 5U);
+  ASSERT_EQ(mutual.rows.size(), 6U);
+  EXPECT_EQ(mutual.columns.size(), 2U);  // one comparison has no deviation
   for (const auto& row : mutual.rows) EXPECT_EQ(row[1], "1.000") << row[0];
   EXPECT_EQ(input.curves.size(), 2U);
+}
+
+/// Curves of a test in a folder of scenarios of one's own, equal to a run's but for a factor.
+class OwnCurves {
+ public:
+  OwnCurves(const std::string& scenario, const RunChannels& run, double speed_factor) {
+    std::string test = scenario;
+    for (char& c : test) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const fs::path curves = folder_ / "reference" / test / "curves";
+    fs::create_directories(curves);
+    write(curves / "head_cog_y.csv", *run.find("head_cog_y"), 1, "mm");
+    write(curves / "head_speed_relative.csv", *run.find("head_speed_relative"), speed_factor,
+          "m/s");
+    setenv("CROSSWALK_SCENARIOS", folder_.c_str(), 1);
+  }
+  ~OwnCurves() {
+    unsetenv("CROSSWALK_SCENARIOS");
+    fs::remove_all(folder_);
+  }
+  OwnCurves(const OwnCurves&) = delete;
+  OwnCurves& operator=(const OwnCurves&) = delete;
+
+ private:
+  static void write(const fs::path& path, const Channel& channel, double factor, const char* unit) {
+    std::ofstream out(path);
+    out << "# unit: " << unit << "\ntime_s,value\n";
+    out.precision(17);
+    for (std::size_t i = 0; i < channel.samples.size(); ++i) {
+      if (std::isfinite(channel.samples[i]))
+        out << channel.time(i) << "," << factor * channel.samples[i] << "\n";
+    }
+  }
+  fs::path folder_ = fs::temp_directory_path() / "cw_own_curves";
+};
+
+/// The layout of the published table: scores by signal, mean and deviation by model, weights.
+TEST(RunCompare, OwnCurvesFillTheTableOfTheTests) {
+  const std::vector<ComparedRun> runs{{"a", analysis_of(false), {}}, {"b", analysis_of(false), {}}};
+  const RunChannels& channels = runs[0].analysis.channels;
+  const OwnCurves curves(runs[0].analysis.summary.manifest.scenario, channels, 0.8);
+  ComparisonSettings settings;
+  settings.set = {{"head_cog_y", "Y", 3}, {"head_speed_relative", "speed", 1}};
+  const ReportInput input = comparison_input(runs, settings);
+  const ReportTable& table = input.tables.at(1);
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_EQ(table.columns.back(), "multibody: mean ± deviation");
+  EXPECT_EQ(table.rows[0],
+            (std::vector<std::string>{"Y (weight 3)", "1.000", "1.000", "1.000 ± 0.000"}));
+  const double speed = std::stod(table.rows[1][1]);
+  EXPECT_LT(speed, 0.95);
+  EXPECT_NEAR(std::stod(table.rows[2][1]), (3 + speed) / 4, 1e-3);
+  EXPECT_EQ(input.bars.size(), 4U);
 }
 
 }  // namespace

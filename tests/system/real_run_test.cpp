@@ -34,6 +34,39 @@ TEST_F(RealRun, ReplayIntoAFreshRecorderGivesTheSameChannels) {
   EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
 }
 
+/// The text between the script's data element: charts and scene of a report.
+std::string page_data_of(const fs::path& report) {
+  const std::string text = text_of(report);
+  const std::size_t begin = text.find("id=\"report-data\"");
+  if (begin == std::string::npos) return text.substr(text.find("<section id=\"verdict\""));
+  return text.substr(begin, text.find("</script>", begin) - begin);
+}
+
+TEST_F(RealRun, LogOfTheStockLoggerAloneGivesTheSameReport) {
+  const std::string url = "udpm://239.255.76.67:19996?ttl=0&recv_buf_size=4194304";
+  const fs::path log = folder_.path() / "stock.lcmlog";
+  Launched logger("/usr/bin/lcm-logger", {"--quiet", "--lcm-url=" + url, log.string()},
+                  folder_.path() / "logger.txt");
+  ASSERT_TRUE(wait_for(kLong, [&] { return fs::exists(log); }));
+  complete("a", {"--mode", "multibody", "--until-ms", "3", "--lcm-url", url});
+  logger.send(SIGINT);
+  ASSERT_TRUE(logger.wait(kLong)) << logger.output();
+  ASSERT_GT(fs::file_size(log), 100000u) << logger.output();
+
+  const auto succeeds = [&](std::vector<std::string> arguments, const std::string& name) {
+    Launched launched = call("recorder", std::move(arguments), name);
+    const auto status = launched.wait(kLong);
+    return status && status->is_success();
+  };
+  const fs::path ours = folder_.path() / "ours.html", stock = folder_.path() / "stock.html";
+  ASSERT_TRUE(succeeds({"analyze", log.string(), "--out", out("b").string()}, "analyze"));
+  EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
+  ASSERT_TRUE(succeeds({"report", out("a").string(), "--out", ours.string()}, "ours"));
+  ASSERT_TRUE(succeeds({"report", log.string(), "--out", stock.string()}, "stock"));
+  EXPECT_GT(page_data_of(ours).size(), 10000u);
+  EXPECT_TRUE(page_data_of(ours) == page_data_of(stock));
+}
+
 TEST_F(RealRun, KilledNodeLeavesAReadableLog) {
   Launched launched = run("a", {"--mode", "multibody", "--until-ms", "150"});
   ASSERT_TRUE(wait_for(kLong, [&] { return launched.has_said("  10."); })) << launched.output();

@@ -10,6 +10,12 @@ const holes = (values) => Array.from(values, (v) => (Number.isFinite(v) ? v : nu
 const dashes = (text) => (text ? text.split(' ').map(Number) : undefined);
 const shown = (value) => (value == null ? '–' : Number(value.toPrecision(4)).toString());
 
+/** The border style that comes nearest to a curve's dashes, for its mark in the legend. */
+function borderOf(dash) {
+  if (!dash) return 'solid';
+  return Number(dash.split(' ')[0]) < 3 ? 'dotted' : 'dashed';
+}
+
 /** Vertical lines such as "head contact". */
 function drawMarks(plot, marks) {
   const { ctx, bbox } = plot;
@@ -42,7 +48,9 @@ function options(chart, width) {
     height: kHeight,
     cursor: { sync: { key: sync.key, setSeries: false }, drag: { x: true, y: false } },
     scales: { x: { time: false }, y: { range: { min: { pad: 0.06 }, max: { pad: 0.06 } } } },
-    axes: [{ ...axis, label: chart.x_label }, { ...axis, label: chart.y_label, size: 62 }],
+    axes: [{ ...axis, label: chart.x_label },
+           { ...axis, label: chart.y_label, size: 62, values: (_, ticks) => ticks.map(shown) }],
+    legend: { markers: { dash: (_, i) => borderOf(chart.curves[i - 1]?.dash) } },
     series: [
       { label: 't [ms]', value: (_, v) => (v == null ? '–' : v.toFixed(1)) },
       ...chart.curves.map((curve) => ({

@@ -1,6 +1,7 @@
 // The live page: body, head signals and interface drift as the windows complete.
 import uPlot from 'uplot';
 import { floats } from './bytes.js';
+import { oncePerPicture } from './once_per_picture.js';
 import { Stage } from './stage.js';
 import { Viewer, hasWebGl } from './viewer.js';
 
@@ -11,6 +12,8 @@ const kFont = '12px system-ui, "DejaVu Sans", sans-serif';
 class GrowingChart {
   constructor(name, host) {
     this.data = [[], []];
+    this.host = host;
+    this.drawSoon = oncePerPicture(() => this.plot.setData(this.data));
     const axis = { font: kFont, labelFont: kFont, labelSize: 20, grid: { stroke: '#e6e9ec' } };
     this.plot = new uPlot({
       width: host.clientWidth, height: 170, legend: { show: false },
@@ -30,7 +33,8 @@ class GrowingChart {
       this.data[0].push(time);
       this.data[1].push(y[i]);
     });
-    this.plot.setData(this.data);
+    this.host.dataset.points = String(this.data[0].length);
+    this.drawSoon();
   }
 }
 

@@ -1,6 +1,7 @@
 // A stage seen through an orbiting camera.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { oncePerPicture } from './once_per_picture.js';
 
 /** Camera offsets from the target (m). The pedestrian faces +x, the car travels along +y. */
 const kViews = { oblique: [-3.4, 2.6, 1.7], posterior: [-5, 0.001, 0], superior: [-0.001, 0, 5] };
@@ -15,6 +16,7 @@ export class Viewer {
     this.stage = stage;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.draw = oncePerPicture(() => this.renderer.render(this.stage.scene, this.camera));
     this.camera = new THREE.PerspectiveCamera(36, 1, 0.05, 60);
     this.camera.up.set(0, 0, 1);
     this.orbit = new OrbitControls(this.camera, canvas);
@@ -30,8 +32,6 @@ export class Viewer {
     this.camera.updateProjectionMatrix();
     this.draw();
   }
-
-  draw() { this.renderer.render(this.stage.scene, this.camera); }
 
   /** A standard view of the point y (m) along the car's travel. */
   look(name, y) {

@@ -44,9 +44,9 @@ std::string page_data_of(const fs::path& report) {
 
 TEST_F(RealRun, LogOfTheStockLoggerAloneGivesTheSameReport) {
   const std::string url = "udpm://239.255.76.67:19996?ttl=0&recv_buf_size=4194304";
-  const fs::path log = folder_.path() / "stock.lcmlog";
+  const fs::path log = folder() / "stock.lcmlog";
   Launched logger("/usr/bin/lcm-logger", {"--quiet", "--lcm-url=" + url, log.string()},
-                  folder_.path() / "logger.txt");
+                  folder() / "logger.txt");
   ASSERT_TRUE(wait_for(kLong, [&] { return fs::exists(log); }));
   complete("a", {"--mode", "multibody", "--until-ms", "3", "--lcm-url", url});
   logger.send(SIGINT);
@@ -58,7 +58,7 @@ TEST_F(RealRun, LogOfTheStockLoggerAloneGivesTheSameReport) {
     const auto status = launched.wait(kLong);
     return status && status->is_success();
   };
-  const fs::path ours = folder_.path() / "ours.html", stock = folder_.path() / "stock.html";
+  const fs::path ours = folder() / "ours.html", stock = folder() / "stock.html";
   ASSERT_TRUE(succeeds({"analyze", log.string(), "--out", out("b").string()}, "analyze"));
   EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
   ASSERT_TRUE(succeeds({"report", out("a").string(), "--out", ours.string()}, "ours"));

@@ -1,12 +1,14 @@
-// node live_test.mjs CHROMIUM PROGRAMS SCENARIO FOLDER: a run with --watch, its page in a headless
-// browser: signals and body come while windows complete, a closed browser does not matter.
+// node live_test.mjs CHROMIUM PROGRAMS SCENARIO FOLDER: a run with --watch whose reader goes away in
+// the middle, then its log growing again, piece by piece, before a headless browser: signals and
+// body follow, and the server outlives the browser.
 // Exit 77 means skipped: the page was built without npm, or the browser does not start here.
 import { spawn } from 'node:child_process';
-import { existsSync, rmSync } from 'node:fs';
+import { appendFileSync, existsSync, mkdirSync, readFileSync, rmSync } from 'node:fs';
 import { Browser, pause } from '../recorder/report/browser.mjs';
 
 const [chromium, programs, scenario, folder] = process.argv.slice(2);
 const kSkipped = 77;
+const kPieces = 40;
 let failed = 0;
 
 function expect(isTrue, text) {
@@ -15,67 +17,93 @@ function expect(isTrue, text) {
   failed = 1;
 }
 
-/** `crosswalk run --watch`: its output, its live page's address and its end. */
-class WatchedRun {
-  constructor(out, untilMs) {
-    rmSync(out, { recursive: true, force: true });
+/** A program, what it says, and its end. */
+class Program {
+  constructor(name, options) {
     this.text = '';
-    this.process = spawn(`${programs}/crosswalk`, [
-      'run', scenario, '--mode', 'multibody', '--until-ms', String(untilMs), '--watch', '--out', out]);
+    this.process = spawn(`${programs}/${name}`, options);
     for (const stream of [this.process.stdout, this.process.stderr]) {
       stream.on('data', (data) => { this.text += data; });
     }
     this.end = new Promise((resolve) => { this.process.on('exit', resolve); });
   }
 
+  /** The live page's address, once it is told. */
   async address() {
-    for (let i = 0; i < 600 && !this.text.includes('page'); ++i) await pause(100);
-    return this.text.match(/live page: (http:\S+)/)?.[1];
+    for (let i = 0; i < 600; ++i) {
+      const found = this.text.match(/http:\/\/[0-9.:]+\//)?.[0];
+      if (found || this.process.exitCode !== null || this.text.includes('no live page')) return found;
+      await pause(100);
+    }
+    return undefined;
   }
 }
 
-const drawn = (name) => `document.querySelector('[data-live-chart=${name}]')?.dataset.points ?? 0`;
+/** Reads some events and goes away, as a closed browser does. */
+async function lookBriefly(url) {
+  const leave = new AbortController();
+  const events = await fetch(`${url}events`, { signal: leave.signal });
+  const { value } = await events.body.getReader().read();
+  leave.abort();
+  return new TextDecoder().decode(value);
+}
 
-async function checkPage(browser, url) {
-  await browser.open(url);
-  expect(await browser.until(`Number(${drawn('acceleration')}) > 20`, 60), 'acceleration is drawn');
-  const before = Number(await browser.value(drawn('acceleration')));
-  expect(await browser.until(`Number(${drawn('acceleration')}) > ${before}`, 60),
-         'acceleration grows while the run goes on');
-  const frames = 'Number(document.querySelector("canvas").dataset.frames ?? 0)';
-  const hasWebGl = await browser.value('!!document.createElement("canvas").getContext("webgl2")');
-  if (hasWebGl) {
-    const first = await browser.value(frames);
-    expect(await browser.until(`${frames} > ${first}`, 60), 'the body moves');
+async function watchedRun(out) {
+  const run = new Program('crosswalk', [
+    'run', scenario, '--mode', 'multibody', '--until-ms', '20', '--watch', '--out', out]);
+  const url = await run.address();
+  if (!url) {
+    console.log(run.text);
+    process.exit(run.text.includes('npm') ? kSkipped : 1);
   }
-  console.log(`points ${before}, then ${await browser.value(drawn('acceleration'))}, `
-    + `frames ${await browser.value(frames)}`);
+  const text = await lookBriefly(url);
+  expect(text.startsWith('id: 0') || text.startsWith(':'), `events come, found: ${text.slice(0, 80)}`);
+  expect(await run.end === 0, `the run ends well without its reader:\n${run.text}`);
+  for (const name of ['channels.csv', 'report.html']) expect(existsSync(`${out}/${name}`), name);
+}
+
+const points = 'Number(document.querySelector("[data-live-chart=acceleration]").dataset.points ?? 0)';
+const frames = 'Number(document.querySelector("canvas").dataset.frames ?? 0)';
+
+async function growingPage(browser, log, out) {
+  rmSync(out, { recursive: true, force: true });
+  mkdirSync(out, { recursive: true });
+  const watch = new Program('recorder', ['watch', out, '--port', '0']);
+  const url = await watch.address();
+  await browser.open(url);
+  const piece = Math.ceil(log.length / kPieces);
+  const add = (i) => appendFileSync(`${out}/signals.lcmlog`, log.subarray(i * piece, (i + 1) * piece));
+  for (let i = 0; i < kPieces / 2; ++i) add(i);
+  expect(await browser.until(`${points} > 10`, 60), 'acceleration is drawn');
+  const before = [await browser.value(points), await browser.value(frames)];
+  for (let i = kPieces / 2; i < kPieces - 1; ++i) add(i);
+  expect(await browser.until(`${points} > ${before[0]}`, 60), 'acceleration follows the log');
+  if (await browser.value('!!document.createElement("canvas").getContext("webgl2")')) {
+    expect(await browser.until(`${frames} > ${before[1]}`, 60), 'the body moves');
+  }
+  console.log(`points and frames: ${before}, then ${await browser.value(points)}, `
+    + `${await browser.value(frames)}`);
+  expect(browser.faults.length === 0, `no script errors, found: ${browser.faults.join('; ')}`);
+  browser.close();
+  await pause(500);
+  add(kPieces - 1);
+  expect((await fetch(url)).ok, 'the server outlives the browser');
+  watch.process.kill('SIGINT');
+  expect(await watch.end === 0, 'the server ends when asked');
 }
 
 async function main() {
-  const out = `${folder}/watched`;
-  const run = new WatchedRun(out, 60);
-  const url = await run.address();
-  if (!url) {
-    const isScriptless = run.text.includes('npm');
-    await run.end;
-    console.log(run.text);
-    process.exit(isScriptless ? kSkipped : 1);
-  }
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  await watchedRun(`${folder}/watched`);
   const browser = new Browser(chromium, folder);
   try {
     await browser.send('Browser.getVersion');
   } catch (error) {
     console.log(`the browser does not start: ${error.message}`);
-    run.process.kill('SIGINT');
     process.exit(kSkipped);
   }
-  await checkPage(browser, url);
-  expect(browser.faults.length === 0, `no script errors, found: ${browser.faults.join('; ')}`);
-  browser.close();
-  expect(run.process.exitCode === null, 'the browser is closed before the run ends');
-  expect(await run.end === 0, `the run ends well without its browser:\n${run.text}`);
-  for (const name of ['channels.csv', 'report.html']) expect(existsSync(`${out}/${name}`), name);
+  await growingPage(browser, readFileSync(`${folder}/watched/signals.lcmlog`), `${folder}/growing`);
 }
 
 try {

@@ -118,13 +118,11 @@ void LiveFeed::publish_samples(const RunRecord& news) {
 void LiveFeed::publish_state(const RunRecord& news) {
   if (!news.mb.empty()) {
     const MbWindow& last = news.mb.rbegin()->second;
-    Json state{{"scenario", run_.scenario},
-               {"mode", run_.has_fe ? "coupled" : "multibody"},
-               {"t_ms", 1e-6 * static_cast<double>(last.t_ns)},
-               {"duration_ms", 1e-6 * static_cast<double>(run_.duration_ns)},
-               {"contacts", last.contacts}};
-    if (!news.fe.empty())
-      state["head_force_kN"] = 1e-3 * news.fe.rbegin()->second.head_contact_force;
+    const Json state{{"scenario", run_.scenario},
+                     {"mode", run_.has_fe ? "coupled" : "multibody"},
+                     {"t_ms", 1e-6 * static_cast<double>(last.t_ns)},
+                     {"duration_ms", 1e-6 * static_cast<double>(run_.duration_ns)},
+                     {"contacts", last.contacts}};
     publish_("state", state.dump());
   }
   if (!has_ended_ && (news.is_finished || news.abort_reason)) {

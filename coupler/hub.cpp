@@ -11,6 +11,7 @@
 #include "common/message_gate.h"
 #include "common/node_session.h"
 #include "crosswalk/msg/recorder_ack.hpp"
+#include "crosswalk/msg/resend_request.hpp"
 #include "crosswalk/msg/run_event.hpp"
 
 namespace crosswalk::coupling {
@@ -89,6 +90,10 @@ Hub::Hub(Bus& bus, RunPlan plan, Patience patience, const std::atomic<bool>& int
       peer(role).answered_set_up = true;
     });
   }
+  bus_.subscribe<msg::resend_request>(Role::Recorder, [this](const msg::resend_request& m) {
+    if (!is_from(peer(Role::Recorder), m.h) || m.role != static_cast<int>(bus_.role())) return;
+    if (m.kind == 0) records_.resend(m.first, m.last);
+  });
   bus_.subscribe<msg::recorder_ack>(Role::Recorder, [this](const msg::recorder_ack& m) {
     if (!is_from(peer(Role::Recorder), m.h)) return;
     acknowledged_ = std::max(acknowledged_, m.window);

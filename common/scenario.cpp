@@ -21,6 +21,8 @@ constexpr std::array kOwners = {
     Owner{"head_neck", "fe_node"}, Owner{"windshield", "fe_node"},  Owner{"output", "fe_node"},
     Owner{"coupling", "coupler"},  Owner{"recorder", "recorder"}};
 
+constexpr std::array<const char*, 4> kModes = {"coupled", "multibody", "prescribed", "impact_only"};
+
 constexpr std::array kNodes = {"mb_node", "fe_node", "coupler", "recorder"};
 
 std::vector<InterfaceSpec> read_interfaces(ConfigTable root) {
@@ -60,9 +62,7 @@ std::vector<NodeSpec> read_nodes(ConfigTable root) {
 
 }  // namespace
 
-std::string_view name_of(RunMode mode) {
-  return mode == RunMode::Coupled ? "coupled" : "multibody";
-}
+std::string_view name_of(RunMode mode) { return kModes[static_cast<std::size_t>(mode)]; }
 
 std::string_view name_of(Fidelity fidelity) {
   constexpr std::array<std::string_view, 3> names = {"coarse", "medium", "fine"};
@@ -79,18 +79,31 @@ Scenario read_scenario(ConfigDocument& document) {
   scenario.duration_s =
       run.quantity("duration", Dimension::Time, {1e-6, 10.0},
                    "Simulated time, counted from the first contact of car and pedestrian.");
-  const std::string mode =
-      run.choice_or("mode", {"coupled", "multibody"}, "coupled",
-                    "Finite-element head and neck on the multibody pedestrian, or the multibody "
-                    "pedestrian alone.");
-  scenario.mode = mode == "multibody" ? RunMode::Multibody : RunMode::Coupled;
+  const std::string mode = run.choice_or(
+      "mode", {kModes.begin(), kModes.end()}, "coupled",
+      "coupled: finite-element head and neck on the multibody pedestrian; multibody: the "
+      "pedestrian alone; prescribed: a finite-element head alone whose skull follows the head of "
+      "another run; "
+      "impact_only: one thrown at the car as the head of another run was.");
+  scenario.mode =
+      static_cast<RunMode>(std::find(kModes.begin(), kModes.end(), mode) - kModes.begin());
+  scenario.motion = run.text_or("motion", "",
+                                "File with the motion of head and car for a head alone, as "
+                                "`crosswalk export RUN --format motion` writes it.");
+  if (scenario.has_head_alone() && scenario.motion.empty())
+    run.problem("motion", fmt::format("a file in mode \"{}\"", mode), "none",
+                "`crosswalk run SCENARIO --mode prescribed --from RUN` makes it");
   const std::vector<std::string> fidelities = {"coarse", "medium", "fine"};
   const std::string fidelity =
       run.choice_or("fidelity", fidelities, "coarse", "Size of the generated finite-element mesh.");
   scenario.fidelity = static_cast<Fidelity>(
       std::find(fidelities.begin(), fidelities.end(), fidelity) - fidelities.begin());
   scenario.interfaces = read_interfaces(root);
-  if (!scenario.has_fe())
+  if (scenario.mode == RunMode::Prescribed)
+    scenario.interfaces = {{"head", "head", true, {}}};
+  else if (scenario.mode == RunMode::ImpactOnly)
+    scenario.interfaces = {{"head", "head", false, {}}, {"buck", "buck", false, {}}};
+  else if (!scenario.has_fe())
     scenario.interfaces.clear();
   else if (scenario.interfaces.empty() || !scenario.interfaces.front().is_attached)
     run.problem("mode", "at least one attached [[interfaces]] in mode \"coupled\"", "none",

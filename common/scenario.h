@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,12 @@
 
 namespace crosswalk {
 
-enum class RunMode { Coupled, Multibody };
+enum class RunMode {
+  Coupled,     ///< finite-element head and neck on the multibody pedestrian
+  Multibody,   ///< the pedestrian alone
+  Prescribed,  ///< a head alone whose skull follows the head of another run
+  ImpactOnly   ///< a head alone, thrown at the car as the head of another run was
+};
 enum class Fidelity { Coarse, Medium, Fine };
 std::string_view name_of(RunMode mode);
 std::string_view name_of(Fidelity fidelity);
@@ -38,12 +44,14 @@ struct Scenario {
   std::string name;
   RunMode mode = RunMode::Coupled;
   Fidelity fidelity = Fidelity::Coarse;
-  double duration_s = 0;  ///< simulated, from the first contact of car and pedestrian
+  double duration_s = 0;         ///< simulated, from the first contact of car and pedestrian
+  std::filesystem::path motion;  ///< of head and car, for a head alone (recorder/export_motion.h)
   std::vector<InterfaceSpec> interfaces;  ///< attached ones first; empty in multibody mode
   std::vector<NodeSpec> nodes;
   std::uint64_t digest = 0;  ///< of the merged document
 
-  bool has_fe() const { return mode == RunMode::Coupled; }
+  bool has_fe() const { return mode != RunMode::Multibody; }
+  bool has_head_alone() const { return mode == RunMode::Prescribed || mode == RunMode::ImpactOnly; }
   std::int64_t duration_ns() const;
 };
 

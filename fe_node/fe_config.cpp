@@ -107,15 +107,19 @@ FeConfig read_fe_config(ConfigDocument& document, const Scenario& scenario) {
                                     config.body.measures, scenario.fidelity);
   if (config.body.find_segment("head") >= 0) config.head_neck.spec.fit = neck_fit(config.body);
   config.interfaces = scenario.interfaces;
+  config.is_head_alone = scenario.has_head_alone();
   std::vector<std::string> followers;
   for (const InterfaceSpec& interface : scenario.interfaces)
-    if (!interface.is_attached) followers.push_back(interface.body);
+    if (!interface.is_attached && interface.body != "head") followers.push_back(interface.body);
   if (!followers.empty()) config.partner_shapes = read_contact_shapes(root, followers);
   ConfigTable windshield = root.table("windshield", "The car's windshield as the head meets it.");
   const bool has_car = std::count(followers.begin(), followers.end(), "buck") > 0;
+  const bool knows_car = has_car || scenario.mode == RunMode::Prescribed;
   config.windshield = generate::read_windshield(
-      windshield, has_car ? read_vehicle_front(root.table("vehicle", "The car.")) : VehicleFront{},
+      windshield,
+      knows_car ? read_vehicle_front(root.table("vehicle", "The car.")) : VehicleFront{},
       fidelity_of(scenario.fidelity));
+  if (!has_car) config.windshield.reset();  // a prescribed head meets nothing
   config.wake_distance =
       windshield.quantity_or("wake_distance", Dimension::Length, {0.02, 1.0}, 0.060,
                              "The windshield costs nothing until the head is this near [E].");

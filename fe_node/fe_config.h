@@ -33,6 +33,7 @@ struct HeadNeckConfig {
 };
 
 struct FeConfig {
+  bool is_head_alone = false;  ///< the head without its neck (RunMode)
   HeadNeckConfig head_neck;
   std::vector<InterfaceSpec> interfaces;               ///< attached ones first
   std::vector<BodyShapes> partner_shapes;              ///< of the followers

@@ -91,7 +91,7 @@ std::vector<InterfaceBody> FeNode::place(std::vector<InterfaceBody> bodies) {
     return std::find_if(bodies.begin(), bodies.end(),
                         [name](const InterfaceBody& b) { return b.name == name; });
   };
-  const auto torso = find("torso_up"), buck = find("buck");
+  const auto torso = find("torso_up"), buck = find("buck"), head = find("head");
   Pose X_WD;
   Twist V_WD;
   if (torso != bodies.end()) {
@@ -99,6 +99,10 @@ std::vector<InterfaceBody> FeNode::place(std::vector<InterfaceBody> bodies) {
     const Vec3 p_TD = neck_landmarks(config_.body).base_on_torso - q_ND * node_.joint;
     X_WD = torso->motion.X_WB * Pose{q_ND, p_TD};
     V_WD = torso->motion.V_WB.shifted(X_WD.p - torso->motion.X_WB.p);
+  }
+  if (head != bodies.end()) {  // alone: it stands where the other run's head was
+    X_WD = head->motion.X_WB * head_.frame().inverse();
+    V_WD = head->motion.V_WB.shifted(X_WD.p - head->motion.X_WB.p);
   }
   run_.state = initial_state(node_.built.model, X_WD, V_WD);
   if (config_.windshield && buck != bodies.end())

@@ -9,6 +9,7 @@
 #include "fe_node/contact/surface.h"
 #include "fe_node/deck/deck_writer.h"
 #include "fe_node/generate/deck_export.h"
+#include "fe_node/head_alone.h"
 #include "fe_node/own_head.h"
 #include "fe_node/solver.h"
 
@@ -52,9 +53,12 @@ class Assembly {
       : config_(config), folder_(folder) {}
 
   NodeModel run() {
-    Deck deck = head_neck_deck();
-    write(deck, "head_neck.k");
     choose_bodies();
+    Deck deck = head_neck_deck();
+    if (config_.is_head_alone) keep_head_alone(deck);
+    if (config_.is_head_alone && result_.boundary.attached > 0)
+      drive_skull(deck, driven_.front());
+    write(deck, config_.is_head_alone ? "head.k" : "head_neck.k");
     options_.units = config_.head_neck.units;
     options_.mass_scaling_step = 0;
     double step = scaling_step(deck);
@@ -64,6 +68,8 @@ class Assembly {
       const Deck pane = generate::generate_windshield(spec);
       write(pane, "windshield.k");
       step = std::min(step, config_.step_scale * initial_stable_step(build_model(pane, {}).model));
+      for (const DeckNode& node : deck.nodes)
+        options_.last_nodes_from = std::max(options_.last_nodes_from, node.id.value + 1);
       generate::join_windshield(deck, spec, kHeadSurface, config_.vehicle_friction);
     }
     options_.driven_parts = driven_;

@@ -137,7 +137,8 @@ std::string block_title(const std::string& body) { return "block_" + body; }
 
 Deck read_own_deck(const FeConfig& config) {
   Deck deck = require_runnable(read_deck(config.head_neck.deck), MissingPolicy::Refuse);
-  adapt_deck(deck, config.head_neck, config.interfaces);
+  adapt_deck(deck, config.head_neck,
+             config.is_head_alone ? std::vector<InterfaceSpec>{} : config.interfaces);
   return deck;
 }
 

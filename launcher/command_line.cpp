@@ -67,8 +67,11 @@ CLI::App* define_run(CLI::App& app, RunRequest& request) {
       app.add_subcommand("run", "Run a scenario: all processes, to the table of results.");
   run->add_option("scenario", request.scenario, "Name under scenarios/tests/, or a file")
       ->required();
-  run->add_option("--mode", request.mode, "coupled or multibody; as the scenario says by default")
-      ->check(CLI::IsMember({"coupled", "multibody"}));
+  run->add_option("--mode", request.mode,
+                  "As the scenario says by default; a head alone (--from): prescribed follows the "
+                  "head of a run, impact_only meets the car as it did")
+      ->check(CLI::IsMember({"coupled", "multibody", "prescribed", "impact_only"}));
+  run->add_option("--from", request.from, "Run whose head a head alone follows");
   run->add_option("--fidelity", request.fidelity, "Mesh of the generated model")
       ->check(CLI::IsMember({"coarse", "medium", "fine"}));
   run->add_option("--until-ms", request.until_ms, "End, simulated ms after first contact")

@@ -4,6 +4,8 @@
 #include <array>
 #include <cctype>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -43,6 +45,35 @@ std::string clock_text() {
   return text.data();
 }
 
+/// Of an impact alone: the head has left the glass again, ms.
+constexpr double kImpactMs = 40;
+
+/// The motion of head and car of the run that a head alone follows, as a file in its folder.
+fs::path export_motion(const RunRequest& request) {
+  const bool is_impact = request.mode == "impact_only";
+  if (!is_impact && request.mode != "prescribed")
+    throw UserError(Problem{{}, "--from", "--mode prescribed or impact_only", request.mode, {}});
+  const fs::path out = fs::absolute(request.from).lexically_normal() / "export";
+  const std::string format = is_impact ? "impact_motion" : "motion";
+  ProcessSpec spec;
+  spec.name = "recorder export";
+  spec.program = sibling_program("recorder");
+  spec.arguments = {"export", request.from.string(), "--format", format, "--out", out.string()};
+  spec.log = out.parent_path() / "logs" / "export.log";
+  if (!fs::exists(RunDirectory(request.from).signals()))
+    throw UserError(
+        Problem{Place{request.from.string()}, "--from", "the folder of a run", "none", {}});
+  if (!Process(spec).wait().is_success()) {
+    std::ifstream log(spec.log);
+    throw UserError(Problem{Place{request.from.string()},
+                            "--from",
+                            "a run whose head can be followed",
+                            std::string(std::istreambuf_iterator<char>(log), {}),
+                            {}});
+  }
+  return out / (format + ".csv");
+}
+
 /// A folder name without blanks, slashes and the like.
 std::string file_name(const std::string& name) {
   std::string out = name;
@@ -80,6 +111,11 @@ ConfigDocument load_scenario(const fs::path& file, const RunRequest& request, Sc
   ConfigDocument document(file);
   if (!request.mode.empty())
     document.override_with(fmt::format("[run]\nmode = \"{}\"\n", request.mode), "--mode");
+  if (!request.from.empty())
+    document.override_with(fmt::format("[run]\nmotion = \"{}\"\n", export_motion(request).string()),
+                           "--from");
+  if (request.mode == "impact_only" && !request.until_ms)
+    document.override_with(fmt::format("[run]\nduration_ms = {:#}\n", kImpactMs), "--mode");
   if (!request.fidelity.empty())
     document.override_with(fmt::format("[run]\nfidelity = \"{}\"\n", request.fidelity),
                            "--fidelity");

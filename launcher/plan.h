@@ -16,6 +16,7 @@ namespace crosswalk {
 struct RunRequest {
   std::string scenario;            ///< a name under scenarios/tests/, or a path
   std::string mode, fidelity;      ///< empty: as the scenario says
+  std::filesystem::path from;      ///< run whose head a head alone follows; empty: none
   std::optional<double> until_ms;  ///< simulated, from first contact; replaces the duration
   std::filesystem::path out;       ///< empty: runs/<name>-<time>
   int threads = 0;                 ///< of fe_node; 0: all

@@ -4,6 +4,7 @@
 #include "mb_node/commands.h"
 #include "mb_node/mb_config.h"
 #include "mb_node/mb_node.h"
+#include "mb_node/played_motion.h"
 #include "mb_node/study.h"
 
 int main(int argc, char** argv) {
@@ -18,6 +19,10 @@ int main(int argc, char** argv) {
            [](RunContext& context) {
              mb::MbConfig config = mb::read_mb_config(context.document, context.scenario);
              context.document.finish();
+             if (context.scenario.has_head_alone()) {
+               mb::PlayedMotion node(config, context.scenario);
+               return run_mb_node(context, node);
+             }
              mb::MbNode node(std::move(config));
              return run_mb_node(context, node);
            },

@@ -40,7 +40,7 @@ MbConfig read_mb_config(ConfigDocument& document, const Scenario& scenario) {
   ConfigTable root = document.root();
   MbConfig config;
   config.body = read_body_description(root.table("subject", "The pedestrian."));
-  if (scenario.has_fe()) config.body = without_head_and_neck(config.body);
+  if (scenario.mode == RunMode::Coupled) config.body = without_head_and_neck(config.body);
   config.posture = read_posture(root.table("posture", "Stance at the start."));
   config.vehicle = read_vehicle(root.table("vehicle", "The car."));
   config.multibody = read_multibody(root.table("multibody", "The multibody solver."));

@@ -1,4 +1,6 @@
 // What the numbered records refer to, as one JSON object (docs/messages.md, docs/multibody.md).
+#include "mb_node/node_description.h"
+
 #include <nlohmann/json.hpp>
 
 #include "mb_node/mb_node.h"
@@ -9,6 +11,8 @@ namespace {
 using nlohmann::json;
 
 json array(const Vec3& v) { return json::array({v.x(), v.y(), v.z()}); }
+
+}  // namespace
 
 json vehicle_json(const Vehicle& vehicle) {
   json components = json::array(), facets = json::array();
@@ -25,8 +29,6 @@ json vehicle_json(const Vehicle& vehicle) {
           {"speed_m_s", vehicle.speed}, {"friction", vehicle.friction},
           {"components", components},   {"facets", facets}};
 }
-
-}  // namespace
 
 std::string MbNode::description() const {
   const MbConfig& config = model_->config;

@@ -42,7 +42,7 @@ void write_results(const Analysis& a, const RunDirectory& directory) {
   write_channels_csv(
       directory.channels(), a.channels.channels,
       {{"scenario", a.summary.manifest.scenario},
-       {"mode", a.summary.manifest.has_fe ? "coupled" : "multibody"},
+       {"mode", a.summary.manifest.mode()},
        {"time_zero", a.channels.has_first_contact
                          ? "first force between car and pedestrian above 10 N"
                          : "start of the simulation"},

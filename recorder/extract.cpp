@@ -95,7 +95,8 @@ void Extraction::find_time_zero() {
     out_.has_first_contact = true;
     break;
   }
-  if (!out_.has_first_contact) {
+  const bool has_body = !record_.manifest || !record_.manifest->has_head_alone();
+  if (!out_.has_first_contact && has_body) {
     out_.warnings.push_back(
         "car and pedestrian never touched (10 N): times count from the start of the simulation");
   }

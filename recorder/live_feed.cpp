@@ -119,7 +119,7 @@ void LiveFeed::publish_state(const RunRecord& news) {
   if (!news.mb.empty()) {
     const MbWindow& last = news.mb.rbegin()->second;
     const Json state{{"scenario", run_.scenario},
-                     {"mode", run_.has_fe ? "coupled" : "multibody"},
+                     {"mode", run_.mode()},
                      {"t_ms", 1e-6 * static_cast<double>(last.t_ns)},
                      {"duration_ms", 1e-6 * static_cast<double>(run_.duration_ns)},
                      {"contacts", last.contacts}};

@@ -13,6 +13,12 @@
 
 namespace crosswalk::recording {
 
+std::string Manifest::mode() const {
+  if (!has_fe) return "multibody";
+  if (!has_head_alone()) return "coupled";
+  return n_attached > 0 ? "prescribed" : "impact_only";
+}
+
 bool Numbers::add(std::int64_t seq) {
   if (seq < complete_ || ahead_.count(seq) != 0) return false;
   if (seq != complete_) {

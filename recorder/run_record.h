@@ -31,6 +31,11 @@ struct Manifest {
   int n_attached = 0;
   std::vector<std::string> bodies;  ///< interface bodies
   std::string run_id, scenario;
+
+  /// True for a head without body: its only partner is the head of another run.
+  bool has_head_alone() const { return has_fe && !bodies.empty() && bodies.front() == "head"; }
+  /// coupled, multibody, prescribed or impact_only (common/scenario.h).
+  std::string mode() const;
 };
 
 struct MbWindow {

@@ -37,9 +37,10 @@ json object_member(const json& object, const char* key) {
 
 std::string subtitle_of(const Summary& s, const json& mb) {
   const json subject = object_member(mb, "subject");
-  std::string out = mode_of(s) == "coupled"
-                        ? "Multibody pedestrian with finite-element head, neck and windshield"
-                        : "Multibody pedestrian";
+  std::string out =
+      s.manifest.has_head_alone() ? "Finite-element head alone, moved or thrown as in another run"
+      : s.manifest.has_fe ? "Multibody pedestrian with finite-element head, neck and windshield"
+                          : "Multibody pedestrian";
   if (subject.contains("standing_height_m") && subject["standing_height_m"].is_number()) {
     out += fmt::format(" · {:.0f} mm, {:.1f} kg", 1e3 * subject["standing_height_m"].get<double>(),
                        subject.value("mass_kg", 0.0));
@@ -277,9 +278,7 @@ void add_reference_curves(ReportInput& input, const std::string& scenario) {
 
 }  // namespace
 
-std::string mode_of(const Summary& summary) {
-  return summary.manifest.has_fe ? "coupled" : "multibody";
-}
+std::string mode_of(const Summary& summary) { return summary.manifest.mode(); }
 
 CurveSet curve_set(const RunChannels& channels, const std::string& label, CurveOrigin origin) {
   CurveSet set{label, origin, {}};

@@ -131,6 +131,11 @@ void add_statements(Summary& s, const std::optional<ReferenceData>& reference) {
         "follows "
         "from them (MPS, CSDM) must not be used.");
   }
+  if (s.manifest.has_head_alone()) {
+    s.statements.push_back(
+        "A head alone, started or driven by the head of another run: what neck and body do while "
+        "it is struck is left out, and no band of the whole test applies.");
+  }
   s.statements.push_back(
       "Car profile and contact curves, body joints and tissue laws are engineering estimates where "
       "no "
@@ -186,6 +191,7 @@ Summary summarize(const RunRecord& record, const RunChannels& channels,
     // A run cut short before the head met the car says nothing about the head.
     const bool is_judged = s.is_complete || s.head_contact;
     for (const Band& band : reference->bands) {
+      if (s.manifest.has_head_alone()) break;  // the bands are those of whole pedestrians
       BandVerdict verdict{band, is_judged ? summary_quantity(s, band.quantity) : std::nullopt,
                           false};
       if (verdict.value)

@@ -25,7 +25,7 @@ ordered_json run_block(const Summary& s) {
           {"scenario", s.manifest.scenario},
           {"scenario_digest",
            fmt::format("{:016x}", static_cast<std::uint64_t>(s.manifest.scenario_digest))},
-          {"mode", s.manifest.has_fe ? "coupled" : "multibody"},
+          {"mode", s.manifest.mode()},
           {"scheme", s.manifest.has_fe ? ordered_json(scheme_name(s.manifest.scheme))
                                        : ordered_json(nullptr)},
           {"windows", s.windows},

@@ -145,7 +145,7 @@ void rating_rows(Table& t, const Summary& s) {
 std::string to_text(const Summary& s) {
   Table t;
   t.title(fmt::format("{} · {} · {:.1f} ms simulated in {} windows of {:g} us", s.manifest.scenario,
-                      s.manifest.has_fe ? "coupled" : "multibody", 1e3 * s.simulated, s.windows,
+                      s.manifest.mode(), 1e3 * s.simulated, s.windows,
                       1e-3 * static_cast<double>(s.manifest.window_ns)));
   if (s.initial_buck_speed) {
     t.row("buck speed", fmt::format("{:.1f} km/h", 3.6 * *s.initial_buck_speed));

@@ -15,7 +15,11 @@ void add_nodes(BuildContext& c) {
   std::vector<Vec3> points;
   points.reserve(c.deck.nodes.size());
   for (const DeckNode& n : c.deck.nodes) points.push_back(c.units.length * n.position);
-  for (int n : hilbert_order(points)) {
+  std::vector<int> order = hilbert_order(points);
+  if (const int last = c.options.last_nodes_from; last > 0)
+    std::stable_partition(order.begin(), order.end(),
+                          [&](int n) { return c.deck.nodes[n].id.value < last; });
+  for (int n : order) {
     const DeckNode& node = c.deck.nodes[n];
     if (!points[n].allFinite())
       c.problem(node.source, fmt::format("*NODE {}", node.id.value), "finite coordinates", "none");

@@ -21,6 +21,9 @@ struct BuildOptions {
   /// s; > 0: elements get mass added until none needs a smaller step (safety factor included).
   /// Negative: as the deck says (*CONTROL_TIMESTEP DT2MS).
   double mass_scaling_step = -1;
+  /// Nodes of this id and above come behind all others in the mesh (a part that may sleep);
+  /// 0: no such.
+  int last_nodes_from = 0;
 };
 
 struct BuiltModel {

@@ -9,6 +9,7 @@
 #include "common/units.h"
 #include "recorder/commands/commands.h"
 #include "recorder/export_csv.h"
+#include "recorder/export_motion.h"
 #include "recorder/head_motion.h"
 #include "recorder/isomme.h"
 
@@ -62,9 +63,17 @@ MmeTest as_isomme(const fs::path& run, const std::vector<Channel>& channels) {
 }  // namespace
 
 ExitCode export_run(const ExportRequest& request) {
-  const std::vector<Channel> channels = channels_of_run(request.run);
   const fs::path out = request.out.empty() ? request.run / "export" : request.out;
   fs::create_directories(out);
+  if (request.format == "motion" || request.format == "impact_motion") {
+    const fs::path file = out / (request.format + ".csv");
+    write_motion_csv(
+        file, read_run_record(RunDirectory(request.run).signals()),
+        request.format == "motion" ? MotionStart::FirstContact : MotionStart::HeadContact);
+    fmt::print("motion of head and car in {}\n", file.string());
+    return ExitCode::Done;
+  }
+  const std::vector<Channel> channels = channels_of_run(request.run);
   if (request.format == "isomme") {
     const MmeTest test = as_isomme(request.run, channels);
     write_isomme(out / test.name, test);

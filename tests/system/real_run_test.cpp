@@ -1,8 +1,12 @@
 // The four programs as the user has them, on short runs of the first test scenario.
 #include "tests/system/real_run.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
+#include <map>
+#include <sstream>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -137,6 +141,42 @@ TEST_F(RealRun, CoupledRunsAreBitIdenticalWithOneAndTwoThreads) {
   complete("b", {"--until-ms", "0.5", "--threads", "2"});
   EXPECT_TRUE(fs::exists(out("a") / "logs/fe_node.log"));
   EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
+}
+
+using Columns = std::map<std::string, std::vector<double>>;
+
+/// The columns of channels.csv; an empty field reads as 0.
+Columns columns_of(const fs::path& run) {
+  std::istringstream lines(channels_of(run));
+  std::string line, field;
+  std::getline(lines, line);
+  std::vector<std::string> names;
+  for (std::istringstream header(line); std::getline(header, field, ',');) names.push_back(field);
+  Columns columns;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    for (const std::string& name : names) {
+      field.clear();
+      std::getline(fields, field, ',');
+      columns[name].push_back(std::strtod(field.c_str(), nullptr));
+    }
+  }
+  return columns;
+}
+
+TEST_F(RealRun, PrescribedHeadFollowsTheHeadOfAnotherRun) {
+  complete("a", {"--mode", "multibody", "--until-ms", "3"});
+  complete("b", {"--mode", "prescribed", "--from", out("a").string(), "--until-ms", "1"});
+  const Columns body = columns_of(out("a")), head = columns_of(out("b"));
+  // Time zero of both is the first contact, with which the prescribed run starts.
+  const std::vector<double>& time = body.at("time_s");
+  const auto zero =
+      static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), 0.0) - time.begin());
+  for (const char* channel : {"head_cog_x_mm", "head_cog_y_mm", "head_cog_z_mm"}) {
+    // A gap is closed within milliseconds, not at once.
+    for (std::size_t i = 0; i < 15; ++i)
+      EXPECT_NEAR(head.at(channel).at(i), body.at(channel).at(zero + i), 2e-4) << channel;
+  }
 }
 
 TEST_F(RealRun, KilledFeNodeEndsACoupledRunByName) {

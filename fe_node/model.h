@@ -41,6 +41,7 @@ struct Model {
   std::vector<BaseAcceleration> base_accelerations;
   std::vector<TiedNode> tied;
   std::vector<NodalForce> nodal_forces;
+  std::vector<PressureLoad> pressures;
   std::vector<StartVelocity> start_velocities;
   std::vector<double> point_mass;  ///< kg per node, from mass elements; may be empty
   SolverSettings settings;

@@ -10,8 +10,10 @@
 #include "common/interrupt.h"
 #include "common/log.h"
 #include "fe_node/deck/keyword_reader.h"
+#include "fe_node/explosion.h"
 #include "fe_node/model_builder/model_builder.h"
 #include "fe_node/output/field_writer.h"
+#include "fe_node/output/history.h"
 #include "fe_node/output/state_bytes.h"
 #include "fe_node/solver.h"
 
@@ -21,6 +23,7 @@ namespace {
 constexpr int kDefaultFrames = 20;     ///< field files of a deck that asks for none
 constexpr int kDefaultHistory = 1000;  ///< history lines likewise
 constexpr int kProgressLines = 10;
+constexpr double kSoundBalance = 0.05;  ///< energy balance of a frame worth looking at
 
 class EnergyHistory {
  public:
@@ -89,14 +92,20 @@ void describe(const BuiltModel& built, const SolveRequest& request, double step)
   for (const std::string& note : built.notes) log_warning("{}", note);
 }
 
-void write_last_sound_frame(const Model& model, const State& state,
+/// One step before the state that failed, unless its energies were no longer sound: then `kept`.
+void write_last_sound_frame(const Model& model, const State& failed, const State& kept,
                             const std::filesystem::path& folder) {
-  State sound = state;
-  for (NodeRecord& node : sound.nodes)
-    node.set_position(node.position() - sound.last_dt * node.velocity());
-  sound.time -= sound.last_dt;
+  const bool is_kept = !(std::abs(failed.energies.balance_error()) < kSoundBalance) ||
+                       !std::isfinite(failed.energies.total());
+  State sound = is_kept ? kept : failed;
+  if (!is_kept) {
+    for (NodeRecord& node : sound.nodes)
+      node.set_position(node.position() - sound.last_dt * node.velocity());
+    sound.time -= sound.last_dt;
+  }
   FieldWriter writer(model, folder / "last_sound");
-  log_error("last sound frame: {}", (folder / "last_sound" / writer.write(sound)).string());
+  log_error("last sound frame, t = {:.6g} ms: {}", 1e3 * sound.time,
+            (folder / "last_sound" / writer.write(sound)).string());
 }
 
 }  // namespace
@@ -121,27 +130,44 @@ SolveResult solve_deck(const SolveRequest& request) {
 
   FieldWriter fields(model, request.folder / "fields");
   EnergyHistory history(request.folder / "energies.csv");
+  HistoryWriter details(model, built.histories, request.folder);
   Clock field_clock(built.field_interval > 0 ? built.field_interval : end / kDefaultFrames,
                     state.time);
   Clock history_clock(built.history_interval > 0 ? built.history_interval : end / kDefaultHistory,
                       state.time);
+  Clock detail_clock(built.histories.interval > 0 ? built.histories.interval
+                     : built.history_interval > 0 ? built.history_interval
+                                                  : end / kDefaultHistory,
+                     state.time);
   Clock progress_clock(end / kProgressLines, state.time);
+  State sound = state;
+  double first_step = 0;
+  ExplosionWatch watch;
   while (state.time < end * (1 - 1e-12) && !interrupt_flag()) {
     set_log_time(state.time);
     if (field_clock.strikes(state.time)) fields.write(state);
     StepReport report;
     try {
+      watch.look(model, state, scratch);
       report = compute_forces(model, state, scratch);
+      if (first_step == 0) first_step = report.stable_step;
+      require_step(model, state, scratch, report, first_step);
     } catch (const NumericalError&) {
-      write_last_sound_frame(model, state, request.folder);
+      write_last_sound_frame(model, state, sound, request.folder);
       throw;
     }
+    // No step is cut short at the end: a run that goes on from its restart file then takes the same
+    // steps as one that was never stopped.
     const double stable = model.settings.step_scale * report.stable_step;
-    const double dt = std::min(stable, end - state.time);
+    const double dt = std::isfinite(stable) ? stable : end / kDefaultHistory;
+    if (detail_clock.strikes(state.time)) details.write(state, scratch);
     for (std::size_t b = 0; b < model.bodies.size(); ++b)
       scratch.body_command[b] = state.bodies[b].V_WB;
     move(model, state, scratch, dt);
-    if (history_clock.strikes(state.time)) history.add(state);
+    if (history_clock.strikes(state.time)) {
+      history.add(state);
+      if (std::abs(state.energies.balance_error()) < kSoundBalance) sound = state;
+    }
     if (progress_clock.strikes(state.time))
       log_info("{:3.0f} %, step {:.4g} us, energy balance {:+.3f} %", 100 * state.time / end,
                1e6 * dt, 100 * state.energies.balance_error());

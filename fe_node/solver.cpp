@@ -16,9 +16,13 @@ constexpr int kNodesPerChunk = 512;
 int node_chunk_count(int node_count) { return (node_count + kNodesPerChunk - 1) / kNodesPerChunk; }
 
 void element_forces(const Model& model, State& state, Scratch& scratch) {
-  const StepContext context{state.nodes, state.spin, state.time, state.last_dt, true};
+  const StepContext context{state.nodes,   state.spin, state.time,
+                            state.last_dt, true,       scratch.threads};
   const int count = static_cast<int>(scratch.chunks.size());
   const bool asleep = is_asleep(model, state);
+  for (std::size_t b = 0; b < model.blocks.size(); ++b)
+    if (model.blocks[b]->has_neighbours() && !(asleep && model.sleeper->blocks[b]))
+      model.blocks[b]->prepare(context, state.history[b]);
 #pragma omp parallel for schedule(static) num_threads(scratch.threads)
   for (int c = 0; c < count; ++c) {
     const Scratch::Chunk& chunk = scratch.chunks[c];
@@ -47,6 +51,24 @@ void add(const BlockSums& part, BlockSums& sum) {
   if (part.inverted_element >= 0 && sum.inverted_element < 0) {
     sum.inverted_element = part.inverted_element;
     sum.inverted_jacobian = part.inverted_jacobian;
+  }
+}
+
+/// Flags the elements that have failed, when their number has changed: more have failed, or the
+/// state is another one.
+void find_failed(const Model& model, const State& state, Scratch& scratch) {
+  int count = 0;
+  for (const BlockSums& sums : scratch.block_sums) count += sums.failed;
+  if (count == scratch.failed.count) return;
+  scratch.failed.count = count;
+  for (std::vector<char>& dead : scratch.failed.is_dead) std::fill(dead.begin(), dead.end(), 0);
+  for (std::size_t b = 0; b < model.blocks.size(); ++b) {
+    if (scratch.block_sums[b].failed == 0) continue;
+    const ElementBlock& block = *model.blocks[b];
+    std::vector<char>& dead = scratch.failed.is_dead[static_cast<std::size_t>(block.kind())];
+    dead.resize(model.mesh.table(block.kind()).size(), 0);
+    for (int e = 0; e < block.element_count(); ++e)
+      if (!block.is_alive(state.history[b], e)) dead[block.mesh_element(e)] = 1;
   }
 }
 
@@ -86,8 +108,9 @@ void contact_forces(const Model& model, State& state, Scratch& scratch, StepRepo
     scratch.contact_loads.on_body[b] = Wrench{};
   }
   scratch.contact_loads.nodal.clear();
-  const ContactContext context{state.nodes,   model.contact_mass, scratch.body_views, state.time,
-                               state.last_dt, state.step,         scratch.threads};
+  const ContactContext context{state.nodes,     model.contact_mass, scratch.body_views,
+                               state.time,      state.last_dt,      state.step,
+                               scratch.threads, &scratch.failed};
   state.energies.contact_stored = 0;
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const bool sleeps = model.sleeper && model.sleeper->contacts[c];
@@ -98,6 +121,8 @@ void contact_forces(const Model& model, State& state, Scratch& scratch, StepRepo
     const ContactReport r =
         model.contacts[c]->forces(context, state.contacts[c], scratch.contact_loads);
     scratch.contact_reports[c] = r;
+    state.contacts[c].friction_dissipated += r.friction_dissipated;
+    state.contacts[c].damping_dissipated += r.damping_dissipated;
     state.energies.contact_stored += r.stored;
     state.energies.contact_dissipated += r.friction_dissipated + r.damping_dissipated;
     if (r.stable_step < report.stable_step) {
@@ -115,6 +140,24 @@ void nodal_loads(const Model& model, State& state, Scratch& scratch) {
     for (int n : load.nodes) {
       scratch.applied[n] += force;
       state.energies.external_work += state.last_dt * force.dot(state.nodes[n].velocity());
+    }
+  }
+}
+
+/// A quarter of p A on each corner of a quadrilateral, a third on a triangle's; the area vector is
+/// exact for the bilinear facet.
+void pressure_loads(const Model& model, State& state, Scratch& scratch) {
+  for (const PressureLoad& load : model.pressures) {
+    const double pressure = load.scale * load.curve.value(state.time);
+    for (const std::array<int, 4>& n : load.facets) {
+      const int corners = n[3] == n[2] ? 3 : 4;
+      const Vec3 a = state.nodes[n[2]].position() - state.nodes[n[0]].position(),
+                 b = state.nodes[n[3]].position() - state.nodes[n[1]].position();
+      const Vec3 force = -pressure / (2.0 * corners) * a.cross(b);
+      for (int c = 0; c < corners; ++c) {
+        scratch.applied[n[c]] += force;
+        state.energies.external_work += state.last_dt * force.dot(state.nodes[n[c]].velocity());
+      }
     }
   }
 }
@@ -379,8 +422,10 @@ Scratch::Scratch(const Model& model, int thread_count) : threads(thread_count) {
 StepReport compute_forces(const Model& model, State& state, Scratch& scratch) {
   element_forces(model, state, scratch);
   StepReport report = sum_blocks(model, state, scratch);
+  find_failed(model, state, scratch);
   contact_forces(model, state, scratch, report);
   nodal_loads(model, state, scratch);
+  pressure_loads(model, state, scratch);
   gather_nodal_forces(model, state, scratch);
   sum_body_wrenches(model, state, scratch);
   return report;

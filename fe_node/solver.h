@@ -31,6 +31,7 @@ struct Scratch {
   std::vector<Vec3> applied;        ///< N, contact and loads on nodes of this step
   std::vector<Vec3> force, moment;  ///< N, N m, on nodes
   ContactLoads contact_loads;
+  FailedElements failed;  ///< found again from the histories whenever their number changes
   std::vector<ContactReport> contact_reports;
   std::vector<BodyMotionView> body_views;
   std::vector<Wrench> body_wrench;  ///< on each body about its origin, elements and contacts

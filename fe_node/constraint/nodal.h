@@ -51,6 +51,14 @@ struct TiedNode {
   std::array<double, 4> weight{};
 };
 
+/// A pressure that stays normal to its facets and pushes against their normals (corners
+/// anticlockwise seen from outside; a triangle repeats its last corner), Pa.
+struct PressureLoad {
+  std::vector<std::array<int, 4>> facets;
+  Curve curve;
+  double scale = 1;
+};
+
 /// Force curve on nodes, N each.
 struct NodalForce {
   std::vector<int> nodes;

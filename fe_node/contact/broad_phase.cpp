@@ -12,7 +12,8 @@ BoxGrid::BoxGrid(std::span<const Box3> boxes, const Box3& region) : boxes_(boxes
   }
   // cells of the mean box, at most a few per box
   Vec3 mean = Vec3::Zero();
-  for (const Box3& box : boxes) mean += (box.high - box.low) / static_cast<double>(boxes.size());
+  for (const Box3& box : boxes)
+    if (!box.is_empty()) mean += (box.high - box.low) / static_cast<double>(boxes.size());
   const Vec3 extent = (region.high - region.low).cwiseMax(1e-12);
   double cell = std::max(mean.maxCoeff(), 1e-12);
   const double limit = 4.0 * static_cast<double>(boxes.size()) + 64;
@@ -31,7 +32,7 @@ BoxGrid::BoxGrid(std::span<const Box3> boxes, const Box3& region) : boxes_(boxes
   auto for_each_cell = [&](auto&& visit) {
     for (int b = 0; b < static_cast<int>(boxes.size()); ++b) {
       const Box3& box = boxes[b];
-      if ((box.low.array() > region.high.array()).any() ||
+      if (box.is_empty() || (box.low.array() > region.high.array()).any() ||
           (box.high.array() < region.low.array()).any())
         continue;
       int low[3], high[3];

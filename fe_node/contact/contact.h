@@ -3,12 +3,14 @@
 // thread count.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/spatial.h"
+#include "fe_node/mesh/mesh.h"
 #include "fe_node/mesh/node_record.h"
 
 namespace crosswalk::fe {
@@ -19,6 +21,17 @@ struct BodyMotionView {
   Twist V_WB;  ///< of the body's origin, at t - dt/2
 };
 
+/// Elements that carry nothing any more: a flag per element of the mesh table of each kind (empty
+/// where none of that kind has failed), and how many there are.
+struct FailedElements {
+  std::array<std::vector<char>, kElementKinds.size()> is_dead;
+  int count = 0;
+  bool contains(ElementKind kind, int element) const {
+    const std::vector<char>& dead = is_dead[static_cast<std::size_t>(kind)];
+    return !dead.empty() && dead[static_cast<std::size_t>(element)] != 0;
+  }
+};
+
 struct ContactContext {
   std::span<const NodeRecord> nodes;       ///< x at t, v at t - dt/2
   std::span<const double> nodal_mass;      ///< kg, rigid nodes included
@@ -27,6 +40,7 @@ struct ContactContext {
   double dt = 0;
   std::int64_t step = 0;
   int threads = 1;
+  const FailedElements* failed = nullptr;  ///< null: none can fail
 };
 
 /// What a contact remembers between steps; a value, saved with the State. Candidate lists of the
@@ -34,6 +48,7 @@ struct ContactContext {
 struct ContactHistory {
   std::vector<double> values;
   std::vector<int> indices;
+  double friction_dissipated = 0, damping_dissipated = 0;  ///< J, since the start
 };
 
 struct NodalLoad {

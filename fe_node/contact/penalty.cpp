@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "fe_node/contact/candidates.h"
 #include "fe_node/contact/pair.h"
-#include "fe_node/contact/search.h"
 
 namespace crosswalk::fe {
 namespace {
@@ -33,12 +33,6 @@ enum ResultSlot {
   kOmega2,
   kResultSlots
 };
-/// Head of the value array: the search margin, then the watched positions of the last search.
-constexpr int kMargin = 0, kReference = 1;
-/// Head of the index array: the step at which motion is looked at next, then the lists' lengths.
-constexpr int kNextCheckLow = 0, kNextCheckHigh = 1, kLists = 2;
-constexpr int kCheckEvery = 10;  // steps between looks at how far things have moved
-
 struct Touch {
   const ContactFacet* facet = nullptr;
   int index = -1;
@@ -55,29 +49,22 @@ class PenaltyContact final : public ContactInterface {
   PenaltyContact(std::string name, std::vector<ContactPass> passes,
                  const PenaltySettings& settings);
   void initialise(ContactHistory& history, const ContactContext& context) const override;
-  int max_nodal_loads() const override { return 5 * node_entries_; }
+  int max_nodal_loads() const override { return 5 * candidates_.node_entries(); }
   ContactReport forces(const ContactContext& context, ContactHistory& history,
                        ContactLoads& loads) const override;
 
  private:
-  void search_all(ContactHistory& history, const ContactContext& context) const;
-  bool must_search(ContactHistory& history, const ContactContext& context) const;
-  void solve_near(const ContactPass& pass, const NearNode& near, const ContactContext& context,
-                  double* memory, double* result) const;
-  Touch nearest(const ContactPass& pass, const NearNode& near, const ContactContext& context,
-                const double* memory) const;
+  void solve_near(int pass, const NearNode& near, const ContactContext& context, double travel,
+                  double* due_candidates, double* memory, double* result) const;
+  Touch nearest(int pass, const NearNode& near, const ContactContext& context, const double* memory,
+                double travel, double* due_candidates) const;
   PairLaw law_of(const ContactNode& node, const ContactFacet& facet, const ContactContext& context,
                  double& mass) const;
-  double* memory_of(ContactHistory& history, int pass) const {
-    return history.values.data() + memory_begin_[pass];
-  }
+  void add(int pass, int node, const double* result, ContactReport& report,
+           ContactLoads& loads) const;
 
-  std::vector<ContactPass> passes_;
+  ContactCandidates candidates_;
   PenaltySettings settings_;
-  std::vector<int> watched_;  ///< mesh nodes of all passes, rising
-  std::vector<std::size_t> memory_begin_;
-  std::size_t result_begin_ = 0;
-  int node_entries_ = 0;
 };
 
 /// Has a node that touched `last` at `last_distance` gone through the sheet it is now `distance`
@@ -92,111 +79,56 @@ bool has_passed(const ContactFacet& facet, const ContactFacet& last, double dist
   return are_neighbours && std::abs(distance + last_distance) < kJump * reach;
 }
 
-double mean_edge(const std::vector<ContactPass>& passes, std::span<const NodeRecord> nodes) {
-  double sum = 0, count = 0;
-  for (const ContactPass& pass : passes)
-    for (const ContactFacet& facet : pass.facets)
-      for (int i = 0; i < 2; ++i) {
-        sum += (nodes[facet.node[i]].position() - nodes[facet.node[i + 1]].position()).norm();
-        count += 1;
-      }
-  return sum / std::max(count, 1.0);
+std::vector<ContactPass> scaled(std::vector<ContactPass> passes, double thickness_scale) {
+  for (ContactPass& pass : passes) pass.thickness_scale = thickness_scale;
+  return passes;
 }
 
 PenaltyContact::PenaltyContact(std::string name, std::vector<ContactPass> passes,
                                const PenaltySettings& settings)
-    : ContactInterface(std::move(name)), passes_(std::move(passes)), settings_(settings) {
+    : ContactInterface(std::move(name)),
+      candidates_(scaled(std::move(passes), settings.thickness_scale), kNodeSlots, kResultSlots),
+      settings_(settings) {
   CW_ASSERT(settings_.nominal_step > 0);
-  for (ContactPass& pass : passes_) {
-    pass.thickness_scale = settings_.thickness_scale;
-    node_entries_ += static_cast<int>(pass.nodes.size());
-    for (const ContactNode& node : pass.nodes) watched_.push_back(node.node);
-    for (const ContactFacet& facet : pass.facets)
-      watched_.insert(watched_.end(), facet.node.begin(), facet.node.end());
-  }
-  std::sort(watched_.begin(), watched_.end());
-  watched_.erase(std::unique(watched_.begin(), watched_.end()), watched_.end());
-  std::size_t place = kReference + 3 * watched_.size();
-  for (const ContactPass& pass : passes_) {
-    memory_begin_.push_back(place);
-    place += kNodeSlots * pass.nodes.size();
-  }
-  result_begin_ = place;
 }
 
 void PenaltyContact::initialise(ContactHistory& history, const ContactContext& context) const {
-  history.values.assign(result_begin_, 0.0);
-  history.values[kMargin] = settings_.search_margin > 0 ? settings_.search_margin
-                                                        : 0.5 * mean_edge(passes_, context.nodes);
-  search_all(history, context);
+  candidates_.initialise(history, context, settings_.search_margin);
   if (settings_.initial != InitialPenetration::Accepted) return;
-  std::size_t place = kLists + passes_.size();
-  for (std::size_t p = 0; p < passes_.size(); ++p) {
-    const CandidateList list({history.indices.data() + place, history.indices.size() - place});
-    place += history.indices[kLists + p];
-    for (int i = 0; i < list.count(); ++i) {
-      const NearNode near = list[i];
-      double* memory = memory_of(history, static_cast<int>(p)) + kNodeSlots * near.node;
-      const Touch touch = nearest(passes_[p], near, context, memory);
+  for (int p = 0; p < static_cast<int>(candidates_.passes().size()); ++p) {
+    const ContactCandidates::View view = candidates_.view(history, p);
+    for (int i = 0; i < view.list.count(); ++i) {
+      const NearNode near = view.list[i];
+      double* memory = view.memory + kNodeSlots * near.node;
+      const Touch touch =
+          nearest(p, near, context, memory, 0, view.due_candidates + view.list.first_candidate(i));
       if (touch.facet && touch.penetration > 0) memory[kAllowance] = touch.penetration;
     }
   }
 }
 
-void PenaltyContact::search_all(ContactHistory& history, const ContactContext& context) const {
-  double* reference = history.values.data() + kReference;
-  for (std::size_t i = 0; i < watched_.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis)
-      reference[3 * i + axis] = context.nodes[watched_[i]].x[axis];
-  history.indices.assign(kLists + passes_.size(), 0);
-  std::size_t near = 0;
-  for (std::size_t p = 0; p < passes_.size(); ++p) {
-    const std::size_t before = history.indices.size();
-    search(passes_[p], context.nodes, history.values[kMargin], history.indices);
-    history.indices[kLists + p] = static_cast<int>(history.indices.size() - before);
-    near = std::max(near, static_cast<std::size_t>(history.indices[before]));
-  }
-  history.values.resize(result_begin_ + kResultSlots * near);
-}
-
-/// Looks every few steps whether anything could leave half the margin before the next look.
-bool PenaltyContact::must_search(ContactHistory& history, const ContactContext& context) const {
-  const std::int64_t next =
-      (std::int64_t{history.indices[kNextCheckHigh]} << 31) + history.indices[kNextCheckLow];
-  if (context.step < next) return false;
-  const double margin = history.values[kMargin];
-  const double* reference = history.values.data() + kReference;
-  double moved2 = 0, speed2 = 0;
-  for (std::size_t i = 0; i < watched_.size(); ++i) {
-    const NodeRecord& node = context.nodes[watched_[i]];
-    const Vec3 moved = node.position() - Eigen::Map<const Vec3>(reference + 3 * i);
-    moved2 = std::max(moved2, moved.squaredNorm());
-    speed2 = std::max(speed2, node.velocity().squaredNorm());
-  }
-  const double dt = std::max(context.dt, settings_.nominal_step);
-  const bool is_due =
-      !(std::sqrt(moved2) + 2 * kCheckEvery * dt * std::sqrt(speed2) < 0.5 * margin);
-  const std::int64_t then = context.step + kCheckEvery;
-  if (is_due) search_all(history, context);
-  history.indices[kNextCheckLow] = static_cast<int>(then & 0x7fffffff);
-  history.indices[kNextCheckHigh] = static_cast<int>(then >> 31);
-  return is_due;
-}
-
 /// The nearest facet; of two equally near ones, that which the node faces more squarely.
-Touch PenaltyContact::nearest(const ContactPass& pass, const NearNode& near,
-                              const ContactContext& context, const double* memory) const {
+Touch PenaltyContact::nearest(int pass_index, const NearNode& near, const ContactContext& context,
+                              const double* memory, double travel, double* due_candidates) const {
+  const ContactPass& pass = candidates_.passes()[pass_index];
+  const double farthest = candidates_.reach(pass_index);
   Touch best;
   double best_distance = 1e300;
   const ContactNode& node = pass.nodes[near.node];
   const Vec3 x = context.nodes[node.node].position();
   const Vec3 last_u = Eigen::Map<const Vec3>(memory + kDirection);
   const bool was_touching = memory[kTouches] > 0;
-  for (int f : near.candidates) {
+  for (std::size_t i = 0; i < near.candidates.size(); ++i) {
+    if (travel < due_candidates[i]) continue;
+    const int f = near.candidates[i];
     const ContactFacet& facet = pass.facets[f];
     Touch t;
     t.corners = corners_of(facet, context.nodes);
     t.projection = closest_point(x, t.corners, facet.is_triangle());
+    if (t.projection.distance > farthest) {
+      due_candidates[i] = travel + (t.projection.distance - farthest);
+      continue;
+    }
     const double reach = settings_.thickness_scale * (node.half_thickness + facet.half_thickness);
     const double d = t.projection.distance;
     const Vec3 away = x - t.projection.point;
@@ -232,11 +164,21 @@ Touch PenaltyContact::nearest(const ContactPass& pass, const NearNode& near,
   return best;
 }
 
+/// Of two nodes that rigid bodies move: their shares of the bodies' masses.
+double inverse_of_shares(const ContactNode& node, const ContactFacet& facet,
+                         const ContactContext& context) {
+  double lightest = context.nodal_mass[facet.node[0]];
+  for (int n : facet.node) lightest = std::min(lightest, context.nodal_mass[n]);
+  const double own = context.nodal_mass[node.node];
+  return own > 0 && lightest > 0 ? 1 / own + 1 / lightest : 0;
+}
+
 PairLaw PenaltyContact::law_of(const ContactNode& node, const ContactFacet& facet,
                                const ContactContext& context, double& mass) const {
   double heaviest = 0;
   for (int n : facet.node) heaviest = std::max(heaviest, context.nodes[n].inverse_mass);
-  const double inverse = context.nodes[node.node].inverse_mass + heaviest;
+  double inverse = context.nodes[node.node].inverse_mass + heaviest;
+  if (inverse == 0) inverse = inverse_of_shares(node, facet, context);
   const double node_stiffness = node.stiffness > 0 ? node.stiffness : facet.stiffness;
   PairLaw law;
   law.stiffness = settings_.stiffness_scale * std::min(node_stiffness, facet.stiffness);
@@ -254,12 +196,13 @@ PairLaw PenaltyContact::law_of(const ContactNode& node, const ContactFacet& face
   return law;
 }
 
-void PenaltyContact::solve_near(const ContactPass& pass, const NearNode& near,
-                                const ContactContext& context, double* memory,
+void PenaltyContact::solve_near(int pass_index, const NearNode& near, const ContactContext& context,
+                                double travel, double* due_candidates, double* memory,
                                 double* result) const {
+  const ContactPass& pass = candidates_.passes()[pass_index];
   result[kFacet] = -1;
   result[kFrictionLoss] = 0;
-  const Touch t = nearest(pass, near, context, memory);
+  const Touch t = nearest(pass_index, near, context, memory, travel, due_candidates);
   if (t.facet == nullptr) memory[kAllowance] = 0;
   const double allowance = t.facet ? std::min(memory[kAllowance], t.penetration) : 0;
   const double penetration = t.facet ? t.penetration - allowance : 0;
@@ -305,44 +248,53 @@ void PenaltyContact::solve_near(const ContactPass& pass, const NearNode& near,
   result[kFrictionLoss] = answer.friction_dissipated;
   result[kDampingLoss] = answer.damping_dissipated;
   result[kPenetration] = penetration;
-  result[kOmega2] = law.stiffness * inverse;
+  result[kOmega2] = law.stiffness * (inverse > 0 || mass <= 0 ? inverse : 1 / mass);
+}
+
+/// One result of a pass into the report and onto the nodes.
+void PenaltyContact::add(int pass_index, int node, const double* r, ContactReport& report,
+                         ContactLoads& loads) const {
+  const ContactPass& pass = candidates_.passes()[pass_index];
+  const Vec3 force = Eigen::Map<const Vec3>(r + kOnNode);
+  loads.nodal.push_back({pass.nodes[node].node, force});
+  const ContactFacet& facet = pass.facets[static_cast<std::size_t>(r[kFacet])];
+  const int corners = facet.is_triangle() ? 3 : 4;
+  for (int c = 0; c < corners; ++c)
+    loads.nodal.push_back({facet.node[c], Eigen::Map<const Vec3>(r + kOnCorner + 3 * c)});
+  report.force += pass_index == 0 ? force : Vec3(-force);
+  report.stored += r[kStored];
+  report.damping_dissipated += r[kDampingLoss];
+  report.max_penetration = std::max(report.max_penetration, r[kPenetration]);
+  ++report.active;
 }
 
 ContactReport PenaltyContact::forces(const ContactContext& context, ContactHistory& history,
                                      ContactLoads& loads) const {
   ContactReport report;
+  candidates_.update(history, context);
   if (context.time < settings_.birth || context.time > settings_.death) return report;
-  must_search(history, context);
+  const double travel = ContactCandidates::travel(history);
   double omega2 = 0;
-  std::size_t place = kLists + passes_.size();
-  for (std::size_t p = 0; p < passes_.size(); ++p) {
-    const ContactPass& pass = passes_[p];
-    const CandidateList list({history.indices.data() + place, history.indices.size() - place});
-    place += history.indices[kLists + p];
-    double* memory = memory_of(history, static_cast<int>(p));
-    double* results = history.values.data() + result_begin_;
-    const int count = list.count();
-#pragma omp parallel for schedule(static) num_threads(context.threads) if (count > 512)
-    for (int i = 0; i < count; ++i) {
-      const NearNode near = list[i];
-      solve_near(pass, near, context, memory + kNodeSlots * near.node, results + kResultSlots * i);
+  for (int p = 0; p < static_cast<int>(candidates_.passes().size()); ++p) {
+    const ContactCandidates::View view = candidates_.view(history, p);
+    int count = 0;
+    for (int i = 0; i < view.list.count(); ++i)
+      if (!(travel < view.due_nodes[i])) view.due_list[count++] = i;
+#pragma omp parallel for schedule(static) num_threads(context.threads) if (count > 256)
+    for (int k = 0; k < count; ++k) {
+      const int i = view.due_list[k];
+      const NearNode near = view.list[i];
+      double* due = view.due_candidates + view.list.first_candidate(i);
+      solve_near(p, near, context, travel, due, view.memory + kNodeSlots * near.node,
+                 view.results + kResultSlots * k);
+      view.due_nodes[i] = *std::min_element(due, due + near.candidates.size());
     }
-    for (int i = 0; i < count; ++i) {
-      const double* r = results + kResultSlots * i;
+    for (int k = 0; k < count; ++k) {
+      const double* r = view.results + kResultSlots * k;
       report.friction_dissipated += r[kFrictionLoss];
       if (r[kFacet] < 0) continue;
-      const Vec3 force = Eigen::Map<const Vec3>(r + kOnNode);
-      loads.nodal.push_back({pass.nodes[list[i].node].node, force});
-      const ContactFacet& facet = pass.facets[static_cast<std::size_t>(r[kFacet])];
-      const int corners = facet.is_triangle() ? 3 : 4;
-      for (int c = 0; c < corners; ++c)
-        loads.nodal.push_back({facet.node[c], Eigen::Map<const Vec3>(r + kOnCorner + 3 * c)});
-      report.force += p == 0 ? force : Vec3(-force);
-      report.stored += r[kStored];
-      report.damping_dissipated += r[kDampingLoss];
-      report.max_penetration = std::max(report.max_penetration, r[kPenetration]);
+      add(p, view.list[view.due_list[k]].node, r, report, loads);
       omega2 = std::max(omega2, r[kOmega2]);
-      ++report.active;
     }
   }
   // two opposed contacts on a node: twice the square of one frequency
@@ -370,9 +322,10 @@ std::unique_ptr<ContactInterface> make_node_contact(std::string name, ContactSur
 std::unique_ptr<ContactInterface> make_surface_contact(std::string name, ContactSurface first,
                                                        ContactSurface second,
                                                        const PenaltySettings& settings) {
-  return std::make_unique<PenaltyContact>(
-      std::move(name), std::vector<ContactPass>{make_pass(first, second), make_pass(second, first)},
-      settings);
+  std::vector<ContactPass> passes{make_pass(first, second), make_pass(second, first)};
+  if (!first.facets.empty()) passes[0].surface_of_nodes = 1;
+  if (!second.facets.empty()) passes[1].surface_of_nodes = 0;
+  return std::make_unique<PenaltyContact>(std::move(name), std::move(passes), settings);
 }
 
 std::unique_ptr<ContactInterface> make_single_surface_contact(std::string name,
@@ -380,6 +333,7 @@ std::unique_ptr<ContactInterface> make_single_surface_contact(std::string name,
                                                               const PenaltySettings& settings) {
   ContactPass pass = make_pass(surface, surface);
   pass.find_neighbours();
+  pass.surface_of_nodes = 0;
   return std::make_unique<PenaltyContact>(std::move(name),
                                           std::vector<ContactPass>{std::move(pass)}, settings);
 }

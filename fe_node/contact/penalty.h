@@ -10,10 +10,10 @@
 // Stiffness k = s min(k_node, k_facet), or at least 1/2 s_soft m*/dt^2 (soft constraint)
 // [hallquist2006, 26.6-26.7], and at most m*/(4 dt^2): elements stepped at 0.9 of their limit leave
 // 4 - 3.24 = 0.76 of omega^2 dt^2 to contact, two opposed contacts take 2/4. m* = 1 / (1/m_node +
-// largest 1/m of the facet's nodes); nodes that a constraint moves count as infinitely heavy.
+// largest 1/m of the facet's nodes); nodes that a constraint moves count as infinitely heavy, and
+// by their shares of their bodies' masses where both sides are such.
 //
-// Candidate pairs come from a grid search repeated when anything has moved half the search margin;
-// a pair is found from nearness alone, so the answer does not depend on when the search ran.
+// Which pairs are looked at, and surfaces that erode: candidates.h.
 #pragma once
 
 #include <memory>

@@ -40,12 +40,15 @@ double ContactPass::reach() const {
 }
 
 void search(const ContactPass& pass, std::span<const NodeRecord> nodes, double margin,
+            std::span<const int> is_facet_there, std::span<const int> is_node_there,
             std::vector<int>& out) {
   const double reach = pass.reach() + margin;
   Box3 of_nodes, of_facets;
   for (const ContactNode& node : pass.nodes) of_nodes.add(nodes[node.node].position());
+  // a facet that is gone keeps an empty box, which contains nothing
   std::vector<Box3> boxes(pass.facets.size());
   for (std::size_t f = 0; f < boxes.size(); ++f) {
+    if (!is_facet_there.empty() && is_facet_there[f] == 0) continue;
     for (int n : pass.facets[f].node) boxes[f].add(nodes[n].position());
     boxes[f].grow(reach);
     of_facets.add(boxes[f].low);
@@ -60,6 +63,7 @@ void search(const ContactPass& pass, std::span<const NodeRecord> nodes, double m
     const BoxGrid grid(boxes, region);
     for (int i = 0; i < static_cast<int>(pass.nodes.size()); ++i) {
       found.clear();
+      if (!is_node_there.empty() && is_node_there[i] == 0) continue;
       grid.find(nodes[pass.nodes[i].node].position(), found);
       const std::size_t before = candidates.size();
       for (int f : found)

@@ -137,7 +137,7 @@ void ContactSurface::collect_nodes() {
   for (const auto& [n, node] : found) nodes.push_back(node);
 }
 
-ContactSurface surface_of(const Mesh& mesh, std::span<const ContactPart> parts) {
+ContactSurface surface_of(const Mesh& mesh, std::span<const ContactPart> parts, InnerFaces inner) {
   Collector collector{mesh, {}, {}};
   for (const ContactPart& part : parts) {
     std::size_t local = 0;
@@ -147,10 +147,20 @@ ContactSurface surface_of(const Mesh& mesh, std::span<const ContactPart> parts) 
     collector.add_solids(ElementKind::Tet4, part, kTetFaces);
     collector.add_solids(ElementKind::Tet10, part, kTetFaces);
   }
+  std::map<FaceKey, int> first;  // of a shared face, the facet that came first
+  std::vector<ContactFacet>& facets = collector.surface.facets;
   for (std::size_t f = 0; f < collector.solid_facets.size(); ++f) {
     const FaceKey& key = collector.solid_keys[f];
-    if (collector.count[key] == 1 && !collector.shells.contains(key))
-      collector.surface.facets.push_back(collector.solid_facets[f]);
+    if (collector.shells.contains(key)) continue;
+    const bool is_inner = collector.count[key] > 1;
+    if (is_inner && inner == InnerFaces::Left) continue;
+    const int index = static_cast<int>(facets.size());
+    facets.push_back(collector.solid_facets[f]);
+    if (!is_inner) continue;
+    const auto [it, is_new] = first.try_emplace(key, index);
+    if (is_new) continue;
+    facets[index].twin = it->second;
+    facets[it->second].twin = index;
   }
   collector.surface.collect_nodes();
   return std::move(collector.surface);

@@ -20,6 +20,7 @@ struct ContactFacet {
   bool is_two_sided = false;  ///< shells
   ElementKind kind = ElementKind::Quad4;  ///< of the element it belongs to
   int element = 0;                        ///< in the mesh table of that kind
+  int twin = -1;  ///< the same face seen from the neighbouring solid, which covers it; -1: none
   bool is_triangle() const { return node[3] == node[2]; }
 };
 
@@ -49,7 +50,12 @@ struct ContactPart {
 /// Shells of the parts and the faces of their solids that no second solid of the parts shares; a
 /// face covered by a shell of the parts with the same nodes is left to the shell. Stiffness K A^2/V
 /// of solids and K A / longest diagonal of shells [hallquist2006, 26.6].
-ContactSurface surface_of(const Mesh& mesh, std::span<const ContactPart> parts);
+enum class InnerFaces {
+  Left,  ///< the outer surface only
+  Kept   ///< faces between two solids too, each with its twin, for surfaces that erode
+};
+ContactSurface surface_of(const Mesh& mesh, std::span<const ContactPart> parts,
+                          InnerFaces inner = InnerFaces::Left);
 
 inline FacetCorners corners_of(const ContactFacet& facet, std::span<const NodeRecord> nodes) {
   return {nodes[facet.node[0]].position(), nodes[facet.node[1]].position(),

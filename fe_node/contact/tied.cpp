@@ -49,7 +49,7 @@ void TiedContact::initialise(ContactHistory& history, const ContactContext& cont
     for (const ContactNode& node : pass_.nodes)
       reach = std::max(reach, tolerance(node, facet, corners_of(facet, context.nodes)));
   std::vector<int> found;
-  search(pass_, context.nodes, reach, found);
+  search(pass_, context.nodes, reach, {}, {}, found);
   const CandidateList list(found);
   for (int i = 0; i < list.count(); ++i) {
     const NearNode near = list[i];
@@ -81,6 +81,7 @@ ContactReport TiedContact::forces(const ContactContext& context, ContactHistory&
   for (int i = 0; i < count; ++i) {
     const ContactNode& node = pass_.nodes[history.indices[kIndices * i]];
     const ContactFacet& facet = pass_.facets[history.indices[kIndices * i + 1]];
+    if (context.failed != nullptr && context.failed->contains(facet.kind, facet.element)) continue;
     const double* value = history.values.data() + kValues * i;
     const FacetCorners x = corners_of(facet, context.nodes);
     Projection at;

@@ -18,7 +18,8 @@ struct TiedSettings {
   double tolerance = 0;
 };
 
-/// Nodes that find no facet stay free; `active` of the report counts the tied ones.
+/// Nodes that find no facet stay free, those whose facet's element has failed come free; `active`
+/// of the report counts the tied ones.
 std::unique_ptr<ContactInterface> make_tied_contact(std::string name, ContactSurface nodes,
                                                     ContactSurface facets,
                                                     const TiedSettings& settings);

@@ -31,6 +31,7 @@ struct StepContext {
   double time = 0;  ///< s, of the positions
   double dt = 0;    ///< s, from the last positions to these
   bool wants_stable_step = true;
+  int threads = 1;  ///< for prepare()
 };
 
 /// Sums over the elements of a chunk; energies in J.
@@ -90,6 +91,12 @@ class ElementBlock {
   virtual double added_mass(int /*element*/) const { return 0; }
   virtual double element_volume(int element) const = 0;
   virtual double density() const = 0;
+
+  /// Blocks whose elements look at their neighbours do so here, once a step before forces().
+  virtual bool has_neighbours() const { return false; }
+  virtual void prepare(const StepContext& /*step*/, std::span<double> /*history*/) const {}
+  /// False once an element carries nothing any more.
+  virtual bool is_alive(std::span<const double> /*history*/, int /*element*/) const { return true; }
 
   /// Forces of groups [first, last). `history` and `corner_forces` belong to the whole block:
   /// corner_slot(group, corner, lane) is the place of the x component, y and z

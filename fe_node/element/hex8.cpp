@@ -115,6 +115,7 @@ HexNodes<Lanes> load_hex_nodes(std::span<const NodeRecord> nodes, const int* ind
 void add_to_sums(const HexAnswer<Lanes>& answer, const Lanes& mask, const StepContext& step,
                  int first_element, int element_count, BlockSums& sums) {
   const Lanes live = mask * answer.alive;
+  sums.failed += static_cast<int>((mask - live).sum() + 0.5);
   sums.internal += (answer.energy * mask).sum();
   sums.hourglass += (answer.hourglass_stored * live).sum();
   sums.hourglass_dissipated += step.dt * (answer.hourglass_power * live).sum();

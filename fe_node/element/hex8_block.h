@@ -62,6 +62,13 @@ class Hex8Block final : public ElementBlock {
     }
   }
 
+  bool is_alive(std::span<const double> history, int element) const override {
+    const double* group = history.data() + std::size_t(history_per_group()) * (element / kLanes);
+    if constexpr (requires { Law::kAlive; })
+      return group[Law::kAlive * kLanes + element % kLanes] > 0;
+    return true;
+  }
+
   double initial_stable_step(int element) const override {
     const HexReference<Lanes>& ref = shapes_.groups[element / kLanes];
     Tensor<Lanes> identity;
@@ -92,6 +99,8 @@ class Hex8Block final : public ElementBlock {
     out.volume = ref.volume[lane];
     out.energy = material.energy[lane] * out.volume;
     out.is_alive = material.alive[lane] > 0;
+    if constexpr (requires { Law::kPlasticStrain; })
+      out.plastic_strain = copy[Law::kPlasticStrain][lane];
     for (int node = 0; node < 8; ++node)
       for (int i = 0; i < 3; ++i) out.centre[i] += 0.125 * nodes.x[node][i][lane];
     for (int k = 0; k < 9; ++k) out.deformation(k / 3, k % 3) = still.F(k / 3, k % 3)[lane];

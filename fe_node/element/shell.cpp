@@ -44,6 +44,10 @@ class ShellBlock final : public ElementBlock {
               std::span<double> corner_moments, int first, int last,
               BlockSums& sums) const override;
   double initial_stable_step(int element) const override { return step_[element]; }
+  bool is_alive(std::span<const double> history, int element) const override {
+    return history[static_cast<std::size_t>(element / kLanes) * history_per_group() +
+                   kAlive * kLanes + element % kLanes] > 0.5;
+  }
   ElementSample sample(const StepContext& step, std::span<const double> history,
                        int element) const override;
 

@@ -21,7 +21,7 @@ struct Plastic {
   double failure_strain = 0;     ///< effective plastic; 0: never
 
   /// History: plastic strain, alive, deviatoric work, deviator (6), back stress (6) if kinematic.
-  static constexpr int kPlasticStrain = 0;
+  static constexpr int kPlasticStrain = 0, kAlive = 1;
   int history_size() const { return kinematic_modulus > 0 ? 15 : 9; }
   double shear_modulus() const { return shear; }
   double bulk_modulus() const { return bulk; }

@@ -1,8 +1,13 @@
 // One element block per part and element kind.
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "fe_node/element/beam.h"
 #include "fe_node/element/hex8.h"
+#include "fe_node/element/hex8_full.h"
 #include "fe_node/element/shell.h"
+#include "fe_node/element/tet4.h"
 #include "fe_node/model_builder/law_stage.h"
 
 namespace crosswalk::fe {
@@ -28,7 +33,53 @@ std::vector<std::vector<int>> strands_of(const Mesh& mesh, const std::vector<int
   return strands;
 }
 
+/// The vector from the axis to the third node, or the one the card gives, of each beam.
+std::optional<std::vector<Vec3>> beam_planes(BuildContext& c, const std::vector<int>& elements) {
+  std::unordered_map<DeckId, const BeamElement*> cards;
+  for (const BeamElement& beam : c.deck.beams) cards.emplace(beam.id, &beam);
+  const Mesh& mesh = c.mesh();
+  std::vector<Vec3> planes;
+  for (int e : elements) {
+    const BeamElement& beam = *cards.at(mesh.table(ElementKind::Line2).id[e]);
+    const std::string who = fmt::format("*ELEMENT_BEAM {}", beam.id.value);
+    const std::span<const int> ends = mesh.corners(ElementKind::Line2, e);
+    const Vec3 axis = mesh.position[ends[1]] - mesh.position[ends[0]];
+    Vec3 plane = beam.orientation;
+    if (beam.nodes[2].given())
+      if (const int n = c.node(beam.nodes[2], beam.source, who); n >= 0)
+        plane = mesh.position[n] - mesh.position[ends[0]];
+    for (const int released : beam.released)
+      if (released != 0) {
+        c.problem(beam.source, who, "ends that release nothing", "a release");
+        return std::nullopt;
+      }
+    constexpr double kAngle = 1e-6;
+    if (!(axis.cross(plane).norm() > kAngle * axis.norm() * plane.norm())) {
+      c.problem(beam.source, who, "a third node off the axis", "none",
+                "the section's axes need it, of a round section too");
+      return std::nullopt;
+    }
+    planes.push_back(plane);
+  }
+  return planes;
+}
+
+/// True when the part's section is one that bends, and a block of it has been made or refused.
+bool add_beam_block(BuildContext& c, const Part& part, int index,
+                    const std::vector<int>& elements) {
+  const Section* section = c.section_of(part);
+  const auto* card = section == nullptr ? nullptr : std::get_if<SectionBeam>(&section->law);
+  if (card == nullptr || !bends(*card)) return false;
+  const std::optional<BeamSection> beam = beam_section(c, part, *card);
+  const std::optional<std::vector<Vec3>> planes = beam_planes(c, elements);
+  if (beam && planes && c.problem_count == 0)
+    c.model().blocks.push_back(make_beam_block(c.mesh(), index, elements, *beam, *planes,
+                                               element_controls(c, part).minimum_step));
+  return true;
+}
+
 void add_line_block(BuildContext& c, const Part& part, int index, std::vector<int> elements) {
+  if (add_beam_block(c, part, index, elements)) return;
   std::optional<LineProperties> properties = line_properties(c, part);
   if (!properties) return;
   if (part.is_averaged) properties->strands = strands_of(c.mesh(), elements);
@@ -61,6 +112,47 @@ std::vector<double> shell_thickness(const BuildContext& c, ElementKind kind,
   return thickness;
 }
 
+int solid_formulation(const BuildContext& c, const Part& part) {
+  const Section* section = c.section_of(part);
+  const auto* card = section == nullptr ? nullptr : std::get_if<SectionSolid>(&section->law);
+  return card == nullptr ? 1 : card->formulation;
+}
+
+/// Bricks of formulations 2, 3, -1 and -2 get eight points and a mean dilation, of 1 one point;
+/// tetrahedra of 13 a pressure averaged at the nodes, of others their own.
+void add_solid_block(BuildContext& c, const Part& part, int index, ElementKind kind,
+                     std::vector<int> elements) {
+  const std::optional<SolidLaw> law = solid_law(c, *c.material_of(part));
+  if (!law) return;
+  const int formulation = solid_formulation(c, part);
+  const ElementControls controls = element_controls(c, part);
+  const bool is_tet = kind == ElementKind::Tet4;
+  const auto is_one_of = [&](std::initializer_list<int> known) {
+    return std::find(known.begin(), known.end(), formulation) != known.end();
+  };
+  if (!is_one_of({-2, -1, 1, 2, 3, 10, 13, 15})) {
+    c.problem(part.source, fmt::format("*SECTION_SOLID of part {}", part.id.value),
+              "formulation 1, 2, 10 or 13", fmt::format("{}", formulation));
+    return;
+  }
+  std::unique_ptr<ElementBlock> block;
+  if (is_tet)
+    block = make_tet4_block(c.mesh(), index, std::move(elements), *law, controls,
+                            formulation == 13 ? TetPressure::NodalMean : TetPressure::Own);
+  else if (is_one_of({-2, -1, 2, 3}))
+    block = make_full_hex8_block(c.mesh(), index, std::move(elements), *law, controls);
+  else
+    block = make_hex8_block(c.mesh(), index, std::move(elements), *law, controls);
+  const bool is_as_said = is_tet ? is_one_of({1, 2, 10, 13}) : is_one_of({1, 2});
+  if (!is_as_said)
+    c.note(fmt::format("part {}: solid formulation {} is computed as {}", part.id.value,
+                       formulation,
+                       is_tet                   ? "the four-node tetrahedron (10)"
+                       : is_one_of({-2, -1, 3}) ? "the selective-reduced brick (2)"
+                                                : "the one-point brick (1)"));
+  c.model().blocks.push_back(std::move(block));
+}
+
 void add_part_blocks(BuildContext& c, int index) {
   const Part& part = c.deck.parts[index];
   for (ElementKind kind : kElementKinds) {
@@ -69,10 +161,8 @@ void add_part_blocks(BuildContext& c, int index) {
     const ElementControls controls = element_controls(c, part);
     if (kind == ElementKind::Line2) {
       add_line_block(c, part, index, std::move(elements));
-    } else if (kind == ElementKind::Hex8) {
-      if (const std::optional<SolidLaw> law = solid_law(c, *c.material_of(part)))
-        c.model().blocks.push_back(
-            make_hex8_block(c.mesh(), index, std::move(elements), *law, controls));
+    } else if (kind == ElementKind::Hex8 || kind == ElementKind::Tet4) {
+      add_solid_block(c, part, index, kind, std::move(elements));
     } else if (const std::optional<ShellSection> section = shell_section(c, part)) {
       const std::vector<double> thickness = shell_thickness(c, kind, elements, section->thickness);
       c.model().blocks.push_back(make_shell_block(c.mesh(), kind, index, std::move(elements),

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "fe_node/element/hex8.h"
+#include "fe_node/element/tet4.h"
 #include "fe_node/model_builder/build_context.h"
 
 namespace crosswalk::fe {
@@ -40,7 +41,8 @@ Inertia lumped_inertia(const BuildContext& c, int index) {
   const double density = c.material_of(part)->density * c.units.density();
   const double thickness = shell_thickness(c, part);
   Inertia sum;
-  for (ElementKind kind : {ElementKind::Hex8, ElementKind::Quad4, ElementKind::Tri3}) {
+  for (ElementKind kind :
+       {ElementKind::Hex8, ElementKind::Tet4, ElementKind::Quad4, ElementKind::Tri3}) {
     const ElementTable& table = mesh.table(kind);
     for (int e = 0; e < table.size(); ++e) {
       if (table.part[e] != index) continue;
@@ -50,6 +52,9 @@ Inertia lumped_inertia(const BuildContext& c, int index) {
         Vec3 x[8];
         for (int k = 0; k < 8; ++k) x[k] = mesh.position[corners[k]];
         mass = density * hex8_volume(x);
+      } else if (kind == ElementKind::Tet4) {
+        const std::vector<Vec3>& x = mesh.position;
+        mass = density * tet4_volume(x[corners[0]], x[corners[1]], x[corners[2]], x[corners[3]]);
       } else {
         const Vec3 a = mesh.position[corners[2]] - mesh.position[corners[0]];
         const Vec3 b = mesh.position[corners.back()] - mesh.position[corners[1]];

@@ -55,7 +55,10 @@ void build_mesh(BuildContext& context);
 void build_bodies(BuildContext& context);
 void build_blocks(BuildContext& context);
 void build_conditions(BuildContext& context);
+void build_pressures(BuildContext& context);
+void build_joints(BuildContext& context);
 void build_contacts(BuildContext& context);
 void build_mesh_contacts(BuildContext& context);
+void build_outputs(BuildContext& context);
 
 }  // namespace crosswalk::fe

@@ -253,9 +253,7 @@ class ConditionStage {
   void refuse_the_rest() {
     const Deck& d = c_.deck;
     refuse(d.rigid_loads, "*LOAD_RIGID_BODY", "loads on nodes");
-    refuse(d.pressures, "*LOAD_SEGMENT or *LOAD_SHELL", "loads on nodes");
-    refuse(d.joints, "*CONSTRAINED_JOINT", "rigid bodies without joints");
-    refuse(d.joint_stiffnesses, "*CONSTRAINED_JOINT_STIFFNESS", "rigid bodies without joints");
+    refuse(d.joint_stiffnesses, "*CONSTRAINED_JOINT_STIFFNESS", "joints without stiffness");
     refuse(d.interpolations, "*CONSTRAINED_INTERPOLATION", "ties without interpolation");
     refuse(d.inertias, "*ELEMENT_INERTIA", "*ELEMENT_MASS or *PART_INERTIA");
     refuse(d.erosions, "*MAT_ADD_EROSION", "failure within the material law");

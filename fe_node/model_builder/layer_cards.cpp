@@ -92,6 +92,11 @@ std::optional<ShellSection> glass_section(BuildContext& c, const Part& part,
               fmt::format("{}, one per point", points->size()), fmt::format("{}", flags.size()));
     return std::nullopt;
   }
+  if (!(m.glass_youngs > 0) || !(m.polymer_youngs > 0)) {
+    c.problem(material.source, who, "positive moduli EG and EP",
+              fmt::format("{:g} and {:g}", m.glass_youngs, m.polymer_youngs));
+    return std::nullopt;
+  }
   const ShellGlass glass = pane(m, density, stress);
   c.note(
       fmt::format("{}: panes crack where the principal tension has stood above SYG for {:g} us; "

@@ -172,7 +172,8 @@ class MeshContactStage {
     }
     std::vector<ContactPart> parts;
     for (int p : parts_of(side)) parts.push_back(contact_part(p));
-    ContactSurface found = surface_of(c_.mesh(), parts);
+    ContactSurface found =
+        surface_of(c_.mesh(), parts, card_.is_eroding ? InnerFaces::Kept : InnerFaces::Left);
     if (side.thickness > 0) set_thickness(found, side.thickness * c_.units.length);
     return found;
   }

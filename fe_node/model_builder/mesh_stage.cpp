@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "fe_node/element/hex8.h"
+#include "fe_node/element/tet4.h"
 #include "fe_node/mesh/node_order.h"
 #include "fe_node/model_builder/build_context.h"
 
@@ -70,6 +71,21 @@ bool add_element(BuildContext& c, ElementKind kind, DeckId id, DeckId part,
   return true;
 }
 
+/// Nodes of the brick that a wedge or pyramid collapses from, in *ELEMENT_SOLID order.
+std::array<DeckId, 8> brick_nodes(const ShapedSolid& shape) {
+  const auto& n = shape.nodes;
+  if (shape.shape == SolidShape::Penta6) return {n[0], n[1], n[2], n[2], n[3], n[4], n[5], n[5]};
+  if (shape.shape == SolidShape::Pyramid5) return {n[0], n[1], n[2], n[3], n[4], n[4], n[4], n[4]};
+  return {n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]};
+}
+
+double volume_of_last(const Mesh& mesh, ElementKind kind) {
+  const std::span<const int> corners = mesh.corners(kind, mesh.table(kind).size() - 1);
+  Vec3 x[8];
+  for (std::size_t k = 0; k < corners.size(); ++k) x[k] = mesh.position[corners[k]];
+  return kind == ElementKind::Tet4 ? tet4_volume(x[0], x[1], x[2], x[3]) : hex8_volume(x);
+}
+
 void add_solids(BuildContext& c) {
   for (const SolidElement& solid : c.deck.solids) {
     const ShapedSolid shape = solid_shape(solid);
@@ -79,16 +95,17 @@ void add_solids(BuildContext& c) {
                 solid_shape_name(shape.shape));
       continue;
     }
-    if (!add_element(c, ElementKind::Hex8, solid.id, solid.part,
-                     std::span<const DeckId>(solid.nodes).first(8), solid.source, "*ELEMENT_SOLID"))
+    const bool is_tet = shape.shape == SolidShape::Tet4;
+    const ElementKind kind = is_tet ? ElementKind::Tet4 : ElementKind::Hex8;
+    const std::array<DeckId, 8> brick = brick_nodes(shape);
+    if (!add_element(
+            c, kind, solid.id, solid.part,
+            is_tet ? std::span<const DeckId>(shape.nodes).first(4) : std::span<const DeckId>(brick),
+            solid.source, "*ELEMENT_SOLID"))
       continue;
-    const Mesh& mesh = c.mesh();
-    Vec3 x[8];
-    const std::span<const int> corners =
-        mesh.corners(ElementKind::Hex8, mesh.table(ElementKind::Hex8).size() - 1);
-    for (int k = 0; k < 8; ++k) x[k] = mesh.position[corners[k]];
-    if (!(hex8_volume(x) > 0))
-      c.problem(solid.source, who, "a positive volume", fmt::format("{:.3g} m3", hex8_volume(x)),
+    const double volume = volume_of_last(c.mesh(), kind);
+    if (!(volume > 0))
+      c.problem(solid.source, who, "a positive volume", fmt::format("{:.3g} m3", volume),
                 "is its node order inside out?");
   }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "fe_node/deck/units_guess.h"
@@ -100,6 +101,29 @@ double mass_scaling_step_for(const Model& model, double limit) {
   return model.settings.step_scale * low;
 }
 
+namespace {
+
+JointBody joint_body(const RigidBody& body) {
+  if (body.role != BodyRole::Free) return {};
+  const Eigen::SelfAdjointEigenSolver<Mat3> inertia(body.inertia.about_com);
+  return {body.inertia.mass, inertia.eigenvalues()[0], body.origin};
+}
+
+/// A model of rigid bodies alone has no stable step of its own; its joints then define one.
+void add_joints(BuiltModel& built, double step) {
+  constexpr double kStepOfRigidModels = 1e-6;  // s
+  if (!std::isfinite(step)) step = kStepOfRigidModels;
+  for (JointSpec& joint : built.joints) {
+    const std::vector<RigidBody>& bodies = built.model.bodies;
+    const JointBody a = joint_body(bodies[joint.body_a]), b = joint_body(bodies[joint.body_b]);
+    built.model.contacts.push_back(
+        make_joint(std::move(joint), a, b, built.model.mesh.position, step));
+  }
+  built.joints.clear();
+}
+
+}  // namespace
+
 void finish_model(BuiltModel& built) {
   const double step = built.model.settings.step_scale * initial_stable_step(built.model);
   for (RigidSurfaceSpec& wall : built.walls) {
@@ -110,6 +134,7 @@ void finish_model(BuiltModel& built) {
     built.model.contacts.push_back(make_mesh_contact(std::move(contact), step));
   built.mesh_contacts.clear();
   built.model.finish();
+  add_joints(built, step);
 }
 
 BuiltModel build_model(const Deck& deck, const BuildOptions& options) {
@@ -124,8 +149,11 @@ BuiltModel build_model(const Deck& deck, const BuildOptions& options) {
   build_bodies(context);
   build_blocks(context);
   build_conditions(context);
+  build_pressures(context);
+  build_joints(context);
   build_contacts(context);
   build_mesh_contacts(context);
+  build_outputs(context);
   read_controls(context);
   context.problems.finish();
   return built;

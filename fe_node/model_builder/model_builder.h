@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "fe_node/contact/joint.h"
 #include "fe_node/contact/mesh_contact.h"
 #include "fe_node/contact/rigid_surface.h"
 #include "fe_node/deck/deck.h"
+#include "fe_node/history_requests.h"
 #include "fe_node/model.h"
 
 namespace crosswalk::fe {
@@ -30,13 +32,15 @@ struct BuiltModel {
   Model model;                                      ///< complete but for finish()
   double end_time = 0;                              ///< s, of *CONTROL_TERMINATION; 0: none
   double field_interval = 0, history_interval = 0;  ///< s, of *DATABASE cards; 0: none
-  std::vector<std::string> notes;                   ///< choices the user should know of
+  HistoryRequests histories;
+  std::vector<std::string> notes;  ///< choices the user should know of
   /// Sets of parts by title: indices into Mesh::parts.
   std::vector<std::pair<std::string, std::vector<int>>> part_sets;
   int part_set(std::string_view name) const;  ///< index, or -1
   /// Rigid walls, added to the model by finish_model() when the stable step is known.
   std::vector<RigidSurfaceSpec> walls;
-  std::vector<MeshContactSpec> mesh_contacts;  ///< likewise; the last contacts of the model
+  std::vector<MeshContactSpec> mesh_contacts;  ///< likewise
+  std::vector<JointSpec> joints;               ///< likewise; the last contacts of the model
 };
 
 /// Adds the rigid walls, calls Model::finish() and reports added mass.

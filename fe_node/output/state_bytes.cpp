@@ -57,6 +57,8 @@ void write_state(const State& state, ByteWriter& writer) {
   for (const ContactHistory& contact : state.contacts) {
     writer.vector(contact.values);
     writer.vector(contact.indices);
+    writer.value(contact.friction_dissipated);
+    writer.value(contact.damping_dissipated);
   }
 }
 
@@ -82,6 +84,8 @@ void read_state(ByteReader& reader, State& state) {
   for (ContactHistory& contact : read.contacts) {
     reader.vector(contact.values);
     reader.vector(contact.indices);
+    reader.value(contact.friction_dissipated);
+    reader.value(contact.damping_dissipated);
   }
   require_same(state.nodes.size(), read.nodes.size());
   require_same(state.spin.size(), read.spin.size());

@@ -22,7 +22,7 @@ std::string laminated_plate() {
   const double middle = (kGlass + kFilm) / kTotal, reach = kGlass / kTotal / std::sqrt(3.0);
   std::string text = fmt::format(
       "*PART\npane\n1,1,1\n*SECTION_SHELL\n1,2,,5,,-7\n{0},{0},{0},{0}\n"
-      "*MAT_LAMINATED_GLASS\n1,2286,{1},{2},{3},0,0.0011\n{4},{5},11e6,9.5e6\n0,0,1,0,0\n"
+      "*MAT_LAMINATED_GLASS\n1,2286,{1},{2},{3},0,0.0011,{4}\n{5},11e6,9.5e6\n0,0,1,0,0\n"
       "*INTEGRATION_SHELL\n7,5,0\n",
       kTotal, kGlassE, kGlassNu, kStrength, kFilmE, kFilmNu);
   const double weight = 0.5 * kGlass / kTotal;

@@ -1,0 +1,40 @@
+// Joints between two rigid bodies by penalty: points of one are held to points of the other by
+// stiff springs with dampers. One point makes a spherical joint, two a revolute, three a locked
+// one.
+//
+// Both forces of a point act where the two halves meet, so a joint has neither resultant nor moment
+// and momenta are kept to round-off. Stiffness k = scale m*/dt^2 per point, m* = 1 / (w_a + w_b)
+// with w = 1/M + r^2 / I_min the mobility of the point of a free body (none for a driven one);
+// dampers take a share of critical damping. Lagrange multipliers would hold exactly, but need the
+// solution of coupled equations in a step that has none; the gap left is F / k and is reported.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fe_node/contact/contact.h"
+
+namespace crosswalk::fe {
+
+struct JointSpec {
+  std::string name;
+  int body_a = 0, body_b = 0;               ///< indices into Model::bodies
+  std::vector<std::pair<int, int>> points;  ///< nodes of a and of b that stay together
+  double stiffness_scale = 0.1;             ///< of m*/dt^2
+  double damping_ratio = 0.1;               ///< of critical
+};
+
+/// What joints must know of a body, of Model::finish().
+struct JointBody {
+  double mass = 0;           ///< kg; 0: moved by something else
+  double least_inertia = 0;  ///< kg m2, smallest principal
+  Vec3 centre = Vec3::Zero();
+};
+
+/// `step` is the solver's own, s; `points` the undeformed positions of nodes. The report's force is
+/// that on body_a, its max_penetration the largest gap.
+std::unique_ptr<ContactInterface> make_joint(JointSpec spec, const JointBody& a, const JointBody& b,
+                                             std::span<const Vec3> points, double step);
+
+}  // namespace crosswalk::fe

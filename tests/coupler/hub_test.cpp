@@ -10,6 +10,8 @@
 #include "coupler/coupler.h"
 #include "coupler/lcm_link.h"
 #include "crosswalk/msg/fe_done.hpp"
+#include "crosswalk/msg/resend_request.hpp"
+#include "crosswalk/msg/run_event.hpp"
 #include "toy_nodes.h"
 
 namespace crosswalk::coupling {
@@ -222,6 +224,30 @@ TEST(GrantLedger, ExecutesOnceRepeatsTheLastIgnoresOlderRefusesSkips) {
   EXPECT_THROW(static_cast<void>(ledger.judge(3)), ProtocolError);
   EXPECT_EQ(ledger.answer(1)->at(0), std::byte{9});
   EXPECT_EQ(ledger.answer(2), nullptr);
+}
+
+TEST(Hub, SendsItsRecordsAgainToTheRecorderOfTheRun) {
+  Fixture run;
+  run.hub.claim();
+  run.join();
+  run.hub.gather();
+  int heard = 0;
+  run.recorder_bus.subscribe<msg::run_event>(Role::Coupler,
+                                             [&](const msg::run_event&) { ++heard; });
+  run.hub.records().event(0, EventLevel::Info, "news");
+  run.recorder_bus.handle_pending();
+  ASSERT_EQ(heard, 1);
+  msg::resend_request request{};
+  request.role = static_cast<std::int16_t>(Role::Coupler);
+  request.first = 0;
+  request.last = 5;
+  run.recorder_bus.publish(request, 0);
+  run.recorder_bus.handle_pending();
+  EXPECT_EQ(heard, 2);
+  Bus stranger{run.transport, "test", Role::Recorder};
+  stranger.publish(request, 0);
+  run.recorder_bus.handle_pending();
+  EXPECT_EQ(heard, 2);
 }
 
 }  // namespace

@@ -117,6 +117,8 @@ void tell_what_was_kept(const RunDirectory& directory) {
   fmt::print("kept in {}: {}logs/\n", directory.root().string(), kept);
 }
 
+constexpr int kPageWaitMs = 30'000;  // on a busy machine; a page that fails is known at once
+
 /// The live page's server, a reader of the growing log. Started before the run may move into a
 /// private network, so that a browser reaches it; the run does not depend on it.
 class LivePageProcess {
@@ -129,7 +131,7 @@ class LivePageProcess {
                   .is_output_piped = true}) {
     pollfd ready{process_.output(), POLLIN, 0};
     std::array<char, 256> address{};
-    if (poll(&ready, 1, 5000) == 1 && read(process_.output(), address.data(), 255) > 0) {
+    if (poll(&ready, 1, kPageWaitMs) == 1 && read(process_.output(), address.data(), 255) > 0) {
       fmt::print("live page: {}", address.data());
     } else {
       fmt::print("no live page: {}\n", last_words(directory.log("watch")));

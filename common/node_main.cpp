@@ -64,11 +64,8 @@ ExitCode run(const NodeProgram& program, const RunOptions& options,
   return program.run(context);
 }
 
-ExitCode check(const NodeProgram& program, const fs::path& file) {
-  if (file.extension() != ".toml" && program.check_file) {
-    program.check_file(file);
-    return ExitCode::Done;
-  }
+ExitCode check(const NodeProgram& program, const fs::path& file, const CheckFile& check_file) {
+  if (file.extension() != ".toml" && check_file) return check_file(file);
   ConfigDocument document(file);
   ignore_tables_of_others(document, program.name);
   const Scenario scenario = read_scenario(document);
@@ -142,7 +139,9 @@ int node_main(int argc, char** argv, const NodeProgram& program) {
   fs::path file;
   CLI::App* check_command = app.add_subcommand("check", "Report every mistake in a file.");
   check_command->add_option("file", file, "Scenario or model file")->required();
-  check_command->callback([&] { action = [&] { return check(program, file); }; });
+  const CheckFile check_file =
+      program.check_file ? program.check_file(*check_command) : CheckFile{};
+  check_command->callback([&] { action = [&] { return check(program, file, check_file); }; });
 
   app.add_subcommand("keys", "Print the scenario keys this program reads, as Markdown.")
       ->callback([&] { action = [&] { return print_keys(program); }; });

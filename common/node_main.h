@@ -41,14 +41,17 @@ struct NodeCommand {
   std::function<std::function<ExitCode()>(CLI::App& options)> define;
 };
 
+using CheckFile = std::function<ExitCode(const std::filesystem::path& file)>;
+
 struct NodeProgram {
   std::string name;     ///< "mb_node"
   std::string purpose;  ///< one line of --help
   /// Reads every key of the program's tables; for `check` and `keys`, which finish the document.
   std::function<void(ConfigDocument& document, const Scenario& scenario)> read = {};
   std::function<ExitCode(RunContext& context)> run = {};
-  /// Files other than .toml given to `check` (fe_node: keyword decks); may be empty.
-  std::function<void(const std::filesystem::path& file)> check_file = {};
+  /// Files other than .toml given to `check` (fe_node: keyword decks): adds its options and returns
+  /// what checks a file. May be empty.
+  std::function<CheckFile(CLI::App& options)> check_file = {};
   std::vector<NodeCommand> commands = {};
 };
 

@@ -11,7 +11,8 @@
 #include "common/log.h"
 #include "fe_node/bench.h"
 #include "fe_node/deck/deck_report.h"
-#include "fe_node/deck/keyword_reader.h"
+#include "fe_node/deck/units_guess.h"
+#include "fe_node/model_builder/model_builder.h"
 #include "fe_node/solve.h"
 #include "fe_node/validate/validate.h"
 
@@ -37,40 +38,94 @@ std::string energy_table(const SolveResult& r) {
       r.total_mass);
 }
 
+/// What `solve` and `check` have in common.
+struct DeckOptions {
+  std::vector<std::string> include_paths;
+  std::string units;
+
+  void define(CLI::App& options) {
+    options
+        .add_option("--include-path", include_paths,
+                    "Folder searched for *INCLUDE files, after the decks' own; may be repeated")
+        ->check(CLI::ExistingDirectory)
+        ->type_size(1)
+        ->allow_extra_args(false);
+    options.add_option("--units", units, "Unit system, such as mm-t-s, whatever the deck states");
+  }
+  ReadOptions reading() const {
+    ReadOptions read;
+    read.include_paths.assign(include_paths.begin(), include_paths.end());
+    return read;
+  }
+  UnitSystem unit_system() const {
+    if (units.empty()) return UnitSystem::Unknown;
+    const UnitSystem system = unit_system_from(units);
+    if (system == UnitSystem::Unknown)
+      throw UserError(Problem{{}, "--units", "m-kg-s, mm-t-s, mm-kg-ms, ...", units, {}});
+    return system;
+  }
+};
+
 }  // namespace
 
+std::vector<std::string> try_model(const Deck& deck, DeckProblems& problems) {
+  BuildOptions options;
+  // A clear guess stands in the report already; the model builder refuses an unclear one.
+  if (const UnitsGuess guess = guess_units(deck); guess.certainty == UnitsGuess::Certainty::Likely)
+    options.units = guess.system;
+  try {
+    BuiltModel built = build_model(deck, options);
+    finish_model(built);
+    for (const std::string& note : built.notes) problems.warnings.add({}, note, {}, {});
+    return model_summary(built.model);
+  } catch (const UserError& error) {
+    for (const Problem& problem : error.problems())
+      problems.errors.add(problem.place, problem.what, problem.expected, problem.found,
+                          problem.hint);
+  }
+  return {};
+}
+
+CheckFile check_command(CLI::App& options) {
+  auto deck = std::make_shared<DeckOptions>();
+  deck->define(options);
+  return [deck](const std::filesystem::path& file) {
+    const UnitSystem units = deck->unit_system();
+    ReadDeck read = read_deck(file, deck->reading());
+    if (units != UnitSystem::Unknown) read.deck.units = units;
+    const DeckReport report = report_deck(read, file.string(), try_model);
+    std::cout << report.text << std::flush;
+    return report.is_sound ? ExitCode::Done : ExitCode::UserError;
+  };
+}
+
 NodeCommand solve_command() {
-  return {
-      "solve", "run a keyword deck alone", [](CLI::App& options) {
-        auto request = std::make_shared<SolveRequest>();
-        auto end_ms = std::make_shared<double>(0);
-        auto units = std::make_shared<std::string>();
-        request->folder = "solve";
-        options.add_option("deck", request->deck, "Keyword deck")->required();
-        options.add_option("--out", request->folder, "Folder of the results")
-            ->capture_default_str();
-        options.add_option("--threads", request->threads, "Threads; 0: all")
-            ->check(CLI::Range(0, 256));
-        options.add_option("--end-ms", *end_ms, "End time, ms; as the deck says by default")
-            ->check(CLI::PositiveNumber);
-        options.add_option("--units", *units,
-                           "Unit system, such as mm-t-s, if the deck states none");
-        options.add_flag("--accept-missing", request->accept_missing,
-                         "Run although keywords that change the physics are not understood");
-        options.add_option("--restart", request->restart, "restart.bin to go on from");
-        return [request, end_ms, units] {
-          request->end_time = 1e-3 * *end_ms;
-          if (request->threads == 0) request->threads = omp_get_max_threads();
-          if (!units->empty()) {
-            request->units = unit_system_from(*units);
-            if (request->units == UnitSystem::Unknown)
-              throw UserError(Problem{{}, "--units", "m-kg-s, mm-t-s, mm-kg-ms, ...", *units, {}});
-          }
-          const SolveResult result = solve_deck(*request);
-          std::cout << energy_table(result);
-          return ExitCode::Done;
-        };
-      }};
+  return {"solve", "run a keyword deck alone", [](CLI::App& options) {
+            auto request = std::make_shared<SolveRequest>();
+            auto deck = std::make_shared<DeckOptions>();
+            auto end_ms = std::make_shared<double>(0);
+            request->folder = "solve";
+            options.add_option("deck", request->deck, "Keyword deck")->required();
+            deck->define(options);
+            options.add_option("--out", request->folder, "Folder of the results")
+                ->capture_default_str();
+            options.add_option("--threads", request->threads, "Threads; 0: all")
+                ->check(CLI::Range(0, 256));
+            options.add_option("--end-ms", *end_ms, "End time, ms; as the deck says by default")
+                ->check(CLI::PositiveNumber);
+            options.add_flag("--accept-missing", request->accept_missing,
+                             "Run although keywords that change the physics are not understood");
+            options.add_option("--restart", request->restart, "restart.bin to go on from");
+            return [request, deck, end_ms] {
+              request->end_time = 1e-3 * *end_ms;
+              if (request->threads == 0) request->threads = omp_get_max_threads();
+              request->units = deck->unit_system();
+              request->reading = deck->reading();
+              const SolveResult result = solve_deck(*request);
+              std::cout << energy_table(result);
+              return ExitCode::Done;
+            };
+          }};
 }
 
 NodeCommand validate_command() {
@@ -115,14 +170,6 @@ NodeCommand bench_command() {
               return ExitCode::Done;
             };
           }};
-}
-
-void check_deck(const std::filesystem::path& file) {
-  const DeckReport report = report_deck(file);
-  std::cout << report.text;
-  if (!report.is_sound)
-    throw UserError(
-        Problem{{file.string()}, "deck", "one that can be run as it is", "the above", {}});
 }
 
 }  // namespace crosswalk::fe

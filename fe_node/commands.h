@@ -1,16 +1,18 @@
-// Commands of fe_node beyond run, check and keys.
+// Commands of fe_node beyond run and keys.
 #pragma once
 
-#include <filesystem>
-
 #include "common/node_main.h"
+#include "fe_node/deck/deck.h"
+#include "fe_node/deck/deck_problems.h"
 
 namespace crosswalk::fe {
 
 NodeCommand solve_command();     ///< a keyword deck alone
 NodeCommand validate_command();  ///< component tests against experiments and closed forms
 NodeCommand bench_command();     ///< speed of the solver on generated workloads
-/// `check` of a keyword deck: the report of its contents, or UserError.
-void check_deck(const std::filesystem::path& file);
+CheckFile check_command(CLI::App& options);  ///< `check` of a keyword deck: prints its report
+
+/// Builds the model as `solve` would and tells its mass and step.
+std::vector<std::string> try_model(const Deck& deck, DeckProblems& problems);
 
 }  // namespace crosswalk::fe

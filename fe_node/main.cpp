@@ -44,6 +44,6 @@ int main(int argc, char** argv) {
              fe::FeNode node(std::move(config), omp_get_max_threads(), context.directory.root());
              return run_fe_node(context, node);
            },
-       .check_file = fe::check_deck,
+       .check_file = fe::check_command,
        .commands = {fe::solve_command(), fe::validate_command(), fe::bench_command()}});
 }

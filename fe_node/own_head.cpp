@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/error.h"
-#include "fe_node/deck/keyword_reader.h"
+#include "fe_node/deck/runnable.h"
 #include "fe_node/part_selection.h"
 
 namespace crosswalk::fe {
@@ -136,10 +136,11 @@ class Adapter {
 std::string block_title(const std::string& body) { return "block_" + body; }
 
 Deck read_own_deck(const FeConfig& config) {
-  Deck deck = require_runnable(read_deck(config.head_neck.deck), MissingPolicy::Refuse);
-  adapt_deck(deck, config.head_neck,
+  ReadDeck read = read_deck(config.head_neck.deck);
+  require_runnable(read, MissingPolicy::Refuse);
+  adapt_deck(read.deck, config.head_neck,
              config.is_head_alone ? std::vector<InterfaceSpec>{} : config.interfaces);
-  return deck;
+  return std::move(read.deck);
 }
 
 void adapt_deck(Deck& deck, const HeadNeckConfig& config,

@@ -9,7 +9,7 @@
 #include "common/error.h"
 #include "common/interrupt.h"
 #include "common/log.h"
-#include "fe_node/deck/keyword_reader.h"
+#include "fe_node/deck/runnable.h"
 #include "fe_node/explosion.h"
 #include "fe_node/model_builder/model_builder.h"
 #include "fe_node/output/field_writer.h"
@@ -78,17 +78,9 @@ class Clock {
   double interval_, next_;
 };
 
-void describe(const BuiltModel& built, const SolveRequest& request, double step) {
-  const Model& model = built.model;
-  double added = 0;
-  for (double m : model.added_mass) added += m;
-  log_info("{}: {} nodes, {} parts, mass {:.6g} kg, added mass {:.4g} kg, stable step {:.4g} us",
-           request.deck.string(), model.mesh.node_count(), model.mesh.parts.size(),
-           model.total_mass(), added, 1e6 * step);
-  for (std::size_t p = 0; p < model.mesh.parts.size(); ++p)
-    if (model.added_mass[p] > 0)
-      log_info("added mass of part {} '{}': {:.4g} kg", model.mesh.parts[p].id.value,
-               model.mesh.parts[p].name, model.added_mass[p]);
+void describe(const BuiltModel& built, const SolveRequest& request) {
+  log_info("deck {}", request.deck.string());
+  for (const std::string& line : model_summary(built.model)) log_info("{}", line);
   for (const std::string& note : built.notes) log_warning("{}", note);
 }
 
@@ -110,13 +102,27 @@ void write_last_sound_frame(const Model& model, const State& failed, const State
 
 }  // namespace
 
+std::vector<std::string> model_summary(const Model& model) {
+  double added = 0;
+  for (double m : model.added_mass) added += m;
+  std::vector<std::string> lines{
+      fmt::format("{} nodes, {} parts, mass {:.6g} kg, added mass {:.4g} kg, stable step {:.4g} us",
+                  model.mesh.node_count(), model.mesh.parts.size(), model.total_mass(), added,
+                  1e6 * initial_stable_step(model))};
+  for (std::size_t p = 0; p < model.mesh.parts.size(); ++p)
+    if (model.added_mass[p] > 0)
+      lines.push_back(fmt::format("added mass of part {} '{}': {:.4g} kg",
+                                  model.mesh.parts[p].id.value, model.mesh.parts[p].name,
+                                  model.added_mass[p]));
+  return lines;
+}
+
 SolveResult solve_deck(const SolveRequest& request) {
-  const Deck deck =
-      require_runnable(read_deck(request.deck),
-                       request.accept_missing ? MissingPolicy::Accept : MissingPolicy::Refuse);
-  BuildOptions options;
-  options.units = request.units;
-  BuiltModel built = build_model(deck, options);
+  ReadDeck read = read_deck(request.deck, request.reading);
+  if (request.units != UnitSystem::Unknown) read.deck.units = request.units;
+  require_runnable(read, request.accept_missing ? MissingPolicy::Accept : MissingPolicy::Refuse);
+  for (const Problem& warning : read.problems.warnings.summary()) log_warning("{}", warning.text());
+  BuiltModel built = build_model(read.deck, {});
   finish_model(built);
   const Model& model = built.model;
   const double end = request.end_time > 0 ? request.end_time : built.end_time;
@@ -126,7 +132,7 @@ SolveResult solve_deck(const SolveRequest& request) {
   State state = initial_state(model);
   if (!request.restart.empty()) read_restart(request.restart, state);
   Scratch scratch(model, request.threads);
-  describe(built, request, initial_stable_step(model));
+  describe(built, request);
 
   FieldWriter fields(model, request.folder / "fields");
   EnergyHistory history(request.folder / "energies.csv");

@@ -4,13 +4,15 @@
 #include <filesystem>
 #include <string>
 
-#include "fe_node/deck/deck.h"
+#include "fe_node/deck/keyword_reader.h"
 #include "fe_node/energy.h"
+#include "fe_node/model.h"
 
 namespace crosswalk::fe {
 
 struct SolveRequest {
   std::filesystem::path deck;
+  ReadOptions reading;
   std::filesystem::path folder;  ///< for the results
   UnitSystem units = UnitSystem::Unknown;
   int threads = 1;
@@ -25,6 +27,9 @@ struct SolveResult {
   Energies energies;
   double added_mass = 0, total_mass = 0;  ///< kg
 };
+
+/// Mass, added mass and stable step of a finished model, a line each.
+std::vector<std::string> model_summary(const Model& model);
 
 /// Throws UserError for the deck and NumericalError when the computation leaves its valid range;
 /// the last sound frame is then in the folder.

@@ -72,13 +72,9 @@ void check_with_programs(const fs::path& file, const std::vector<std::string>& p
 
 ExitCode check_command(const std::string& file) {
   const fs::path path = find_scenario(file);
-  if (path.extension() == ".toml") {
-    Scenario scenario;
-    load_scenario(path, {}, scenario);
-    check_with_programs(path, programs_of(scenario));
-  } else {
-    check_with_programs(path, {"fe_node"});
-  }
+  Scenario scenario;
+  load_scenario(path, {}, scenario);
+  check_with_programs(path, programs_of(scenario));
   fmt::print("{}: no mistakes found\n", path.string());
   return ExitCode::Done;
 }

@@ -138,6 +138,8 @@ ExitCode launcher_main(const std::vector<std::string>& arguments) {
   define_replay(app, played)->callback([&] { action = [&] { return replay_command(played); }; });
   std::string file, run;
   CLI::App* check = app.add_subcommand("check", "Report every mistake in a scenario or a deck.");
+  check->footer(
+      "A keyword deck is reported by fe_node: `crosswalk check DECK.k --help` tells more.");
   check->add_option("file", file, "Name under scenarios/tests/, scenario file or keyword deck")
       ->required();
   check->callback([&] { action = [&] { return check_command(file); }; });

@@ -35,6 +35,14 @@ constexpr std::array kHandovers = {
     Handover{"broker", "coupler", "message broker for runs across networks"},
 };
 
+/// A keyword deck rather than a scenario or an option.
+bool names_deck(const fs::path& argument) {
+  const std::string extension = argument.extension().string();
+  if (extension == ".k" || extension == ".key" || extension == ".dyn") return true;
+  std::error_code ignored;
+  return extension != ".toml" && fs::is_regular_file(argument, ignored);
+}
+
 }  // namespace
 
 std::span<const Handover> handovers() { return kHandovers; }
@@ -45,6 +53,8 @@ std::string_view program_for(std::string_view command, const std::vector<std::st
     for (const char* ours : {"rating", "report", "live"})
       if (arguments.front() == ours) return "recorder";
   }
+  if (command == "check" && std::any_of(arguments.begin(), arguments.end(), names_deck))
+    return "fe_node";
   const auto found = std::find_if(kHandovers.begin(), kHandovers.end(),
                                   [&](const Handover& h) { return h.command == command; });
   return found == kHandovers.end() ? std::string_view{} : found->program;

@@ -21,7 +21,7 @@ CardWriter::~CardWriter() { finish(); }
 
 void CardWriter::keyword(const std::string& keyword) {
   finish();
-  keyword_ = keyword;
+  keyword_ = '*' + keyword;  // a deck may have one without a name
   long_.fixed_width = kLongWidth;
 }
 
@@ -33,8 +33,7 @@ void CardWriter::keyword_with_title(const std::string& keyword_name, std::string
 void CardWriter::finish() {
   if (keyword_.empty()) return;
   end_card();
-  out_ << '*' << keyword_ << (is_lossy_ ? " +\n" : "\n")
-       << (is_lossy_ ? long_.text : standard_.text);
+  out_ << keyword_ << (is_lossy_ ? " +\n" : "\n") << (is_lossy_ ? long_.text : standard_.text);
   keyword_.clear();
   standard_ = {};
   long_ = {};

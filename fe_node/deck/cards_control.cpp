@@ -250,6 +250,8 @@ bool read_database(KeywordBlock& block, const std::string& keyword) {
   request.keyword = "DATABASE_" + keyword;
   request.source = block.io.keyword_source();
   database_card(block.io, request);
+  // The second card of *DATABASE_BINARY_D3PLOT names an output file's form.
+  if (keyword.starts_with("BINARY_") && block.io.has_content()) block.io.card();
   block.deck.databases.push_back(std::move(request));
   return true;
 }

@@ -139,9 +139,21 @@ void check_curves(const Deck& deck, DeckProblems& problems) {
   }
 }
 
+/// Beyond it volumes and Jacobians would leave the range of numbers.
+constexpr double kFarthest = 1e12;
+
+void check_coordinates(const Deck& deck, DeckProblems& problems) {
+  for (const DeckNode& node : deck.nodes)
+    if (const double farthest = node.position.cwiseAbs().maxCoeff(); !(farthest <= kFarthest))
+      problems.errors.add(deck.place(node.source), fmt::format("*NODE {}", node.id.value),
+                          fmt::format("coordinates within {:g}", kFarthest),
+                          fmt::format("{:g}", farthest));
+}
+
 }  // namespace
 
 void check_values(const DeckIndex& index, DeckProblems& problems) {
+  check_coordinates(index.deck(), problems);
   check_materials(index.deck(), problems);
   check_parts(index, problems);
   check_curves(index.deck(), problems);

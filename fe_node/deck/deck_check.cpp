@@ -8,6 +8,7 @@
 
 #include "fe_node/deck/deck_references.h"
 #include "fe_node/deck/element_measure.h"
+#include "fe_node/deck/units_guess.h"
 
 namespace crosswalk::fe {
 
@@ -144,13 +145,14 @@ class Known {
   IdTable nodal_bodies_{deck_.nodal_rigid_bodies};
 };
 
-/// Gathers dangling ids: one problem for each record and kind of record it misses; while files are
-/// missing, one warning for each kind.
+/// Gathers dangling ids: one problem for each record and kind of record it misses, one for each
+/// part that elements miss; while files are missing, one warning for each kind.
 class Dangling {
  public:
   Dangling(const Deck& deck, DeckProblems& problems) : deck_(deck), problems_(problems) {}
   ~Dangling() {
     flush();
+    for (const auto& [key, group] : elements_without_part_) report(group, "elements like it");
     for (const auto& [word, group] : in_missing_files_)
       problems_.warnings.add(deck_.place(group.source), group.by,
                              fmt::format("{} {}", word, group.first.value), "none of that number",
@@ -175,6 +177,14 @@ class Dangling {
     ++group_.count;
   }
 
+  /// The part of an element; `kind` is the element's.
+  void add_part(Source source, const char* kind, DeckId element, DeckId part) {
+    const std::string by = fmt::format("{} {}", kind, element.value);
+    if (!deck_.missing_includes.empty()) return add(source, by, "part", part);
+    ++elements_without_part_.try_emplace({kind, part}, Group{source, by, "part", part, 0})
+          .first->second.count;
+  }
+
  private:
   struct Group {
     Source source;
@@ -183,18 +193,21 @@ class Dangling {
     long count = 0;
   };
   void flush() {
-    if (group_.count == 0) return;
-    problems_.errors.add(deck_.place(group_.source), group_.by,
-                         fmt::format("{} {}", group_.word, group_.first.value),
-                         group_.count == 1 ? "none of that number"
-                                           : fmt::format("none of that number, and {} more like it",
-                                                         group_.count - 1));
+    if (group_.count > 0) report(group_, "more like it");
+    group_.count = 0;
+  }
+  void report(const Group& group, const char* others) {
+    std::string found = "none of that number";
+    if (group.count > 1) found += fmt::format(", and {} {}", group.count - 1, others);
+    problems_.errors.add(deck_.place(group.source), group.by,
+                         fmt::format("{} {}", group.word, group.first.value), std::move(found));
   }
 
   const Deck& deck_;
   DeckProblems& problems_;
   Group group_;
   std::map<std::string, Group> in_missing_files_;
+  std::map<std::pair<std::string, DeckId>, Group> elements_without_part_;
 };
 
 template <class Element>
@@ -202,8 +215,7 @@ void check_element_ids(const DeckIndex& index, const std::vector<Element>& eleme
                        const char* word, Dangling& dangling) {
   for (const Element& element : elements) {
     if (index.part(element.part) == nullptr)
-      dangling.add(element.source, fmt::format("{} {}", word, element.id.value), "part",
-                   element.part);
+      dangling.add_part(element.source, word, element.id, element.part);
     for (const DeckId node : element.nodes)
       if (node.given() && index.node_index(node) < 0)
         dangling.add(element.source, fmt::format("{} {}", word, element.id.value), "node", node);
@@ -326,6 +338,7 @@ void check_deck(const DeckIndex& index, DeckProblems& problems) {
   check_references(index, problems);
   check_elements(index, problems);
   check_values(index, problems);
+  check_units(index.deck(), problems);
 }
 
 }  // namespace crosswalk::fe

@@ -1,11 +1,18 @@
 #include "fe_node/deck/deck_problems.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace crosswalk::fe {
 
 void ProblemList::add(Place place, std::string what, std::string expected, std::string found,
                       std::string hint) {
+  const auto is_known = [&](const Problem& known) {
+    return known.place.line == place.line && known.what == what && known.found == found &&
+           known.expected == expected && known.place.file == place.file;
+  };
+  if (std::any_of(kept_.begin(), kept_.end(), is_known)) return;
   ++total_;
   const long seen = ++per_subject_[what.substr(0, what.find(' '))];
   if (seen > kPerSubject || static_cast<int>(kept_.size()) >= kKept) return;

@@ -9,7 +9,7 @@
 
 namespace crosswalk::fe {
 
-/// Problems in the order found. Of each subject (the `what` up to its first blank) only the first
+/// Problems in the order found, the same one once. Of each subject (the `what` up to its first blank) only the first
 /// kPerSubject are kept, so that one broken keyword does not hide the others.
 class ProblemList {
  public:

@@ -30,12 +30,14 @@ class Report {
         units_(guess_units(read.deck)),
         factors_(unit_factors(units_.system)) {}
 
-  std::string text(const std::string& name, bool is_sound) {
+  std::string text(const std::string& name, const std::vector<std::string>& model_lines,
+                   bool is_sound) {
     head(name);
     units();
     size();
     parts();
     others();
+    model(model_lines);
     keywords();
     missing();
     problems("warnings", read_.problems.warnings);
@@ -151,6 +153,9 @@ class Report {
 
   void others() {
     counts_.clear();
+    count("parts", deck_.parts.size());
+    count("sections", deck_.sections.size());
+    count("materials", deck_.materials.size());
     count("curves", deck_.curves.size());
     count("curve functions (not evaluated)", deck_.curve_functions.size());
     count("tables", deck_.tables.size());
@@ -176,6 +181,13 @@ class Report {
     if (counts_.empty()) return;
     line("");
     line("besides   {}", counts_);
+  }
+
+  void model(const std::vector<std::string>& lines) {
+    if (lines.empty()) return;
+    line("");
+    line("model");
+    for (const std::string& one : lines) line("  {}", one);
   }
 
   /// Keywords that are not interpreted, each once with its first place and its number.
@@ -236,13 +248,16 @@ bool changes_physics(const UnreadKeyword& unread) { return unread.effect == Effe
 
 }  // namespace
 
-DeckReport report_deck(ReadDeck& read, const std::string& name) {
+DeckReport report_deck(ReadDeck& read, const std::string& name, const ModelTrial& trial) {
   const DeckIndex index(read.deck);
   check_deck(index, read.problems);
+  std::vector<std::string> model_lines;
+  if (trial && read.problems.errors.empty() && read.deck.missing_includes.empty())
+    model_lines = trial(read.deck, read.problems);
   DeckReport report;
   report.is_sound = read.problems.errors.empty() && read.deck.missing_includes.empty() &&
                     std::none_of(read.deck.unread.begin(), read.deck.unread.end(), changes_physics);
-  report.text = Report(read, index).text(name, report.is_sound);
+  report.text = Report(read, index).text(name, model_lines, report.is_sound);
   return report;
 }
 

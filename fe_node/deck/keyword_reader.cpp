@@ -147,13 +147,13 @@ class DeckReader {
     const std::size_t blank = keyword.find(' ');
     std::string tail = blank == std::string::npos ? "" : keyword.substr(blank);
     keyword.erase(std::min(blank, keyword.size()));
-    if (keyword == "KEYWORD") return read_keyword_options(tail);
     tail = trimmed(tail);
     if (tail.empty() && !keyword.empty() &&
         std::string_view("+-%").find(keyword.back()) != std::string_view::npos) {
       tail = keyword.back();
       keyword.pop_back();
     }
+    if (keyword == "KEYWORD") return read_keyword_options(tail);
     if (tail == "+") format = CardFormat::Long;
     if (tail == "-") format = CardFormat::Standard;
     if (tail == "%") format = CardFormat::I10;
@@ -324,23 +324,6 @@ ReadDeck read_deck_text(std::string text, const std::string& name, const ReadOpt
   ReadDeck out;
   DeckReader(out, options).read_text(std::move(text), name);
   return out;
-}
-
-Deck require_runnable(ReadDeck read, MissingPolicy policy) {
-  std::vector<Problem> problems = read.problems.errors.summary();
-  if (policy == MissingPolicy::Refuse) {
-    ProblemList missing;
-    for (const MissingInclude& include : read.deck.missing_includes)
-      missing.add(read.deck.place(include.source), "*INCLUDE", "a file",
-                  fmt::format("no '{}'", include.name), "give its folder with --include-path");
-    for (const UnreadKeyword& unread : read.deck.unread)
-      if (unread.effect == Effect::Physics)
-        missing.add(read.deck.place(unread.source), "*" + unread.keyword, {},
-                    "changes the physics: " + unread.reason, "run without it by --accept-missing");
-    for (Problem& problem : missing.summary()) problems.push_back(std::move(problem));
-  }
-  if (!problems.empty()) throw UserError(std::move(problems));
-  return std::move(read.deck);
 }
 
 }  // namespace crosswalk::fe

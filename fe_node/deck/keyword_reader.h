@@ -1,8 +1,8 @@
 // Reads a keyword deck with all its includes into a Deck.
 //
 // Never throws for what a deck holds: every problem is listed with its place. What the reader does
-// not interpret is kept in Deck::unread with the effect of leaving it out. require_runnable() turns
-// the outcome into a deck to run, or into one UserError that lists everything against it.
+// not interpret is kept in Deck::unread with the effect of leaving it out; runnable.h tells whether
+// the outcome can be run.
 #pragma once
 
 #include <filesystem>
@@ -28,10 +28,5 @@ struct ReadDeck {
 ReadDeck read_deck(const std::filesystem::path& path, const ReadOptions& options = {});
 /// From memory; `name` stands in messages, includes are relative to the working folder.
 ReadDeck read_deck_text(std::string text, const std::string& name, const ReadOptions& options = {});
-
-enum class MissingPolicy { Refuse, Accept };
-/// Throws UserError with all errors, and with missing includes and unread keywords that change the
-/// physics unless those are accepted.
-Deck require_runnable(ReadDeck read, MissingPolicy policy);
 
 }  // namespace crosswalk::fe

@@ -14,6 +14,7 @@ namespace crosswalk::fe {
 namespace {
 constexpr std::size_t kBufferSize = 1 << 16;
 constexpr std::string_view kDirective = "$ crosswalk:";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8
 constexpr std::size_t kMaxDirectives = 100;
 }  // namespace
 
@@ -123,6 +124,8 @@ bool LineSource::read_line(File& file) {
     if (end != nullptr) break;
   }
   ++file.line_number;
+  if (file.line_number == 1 && file.line.starts_with(kByteOrderMark))
+    file.line.erase(0, kByteOrderMark.size());
   if (file.line.find('\0') != std::string::npos) {
     problems_.errors.add(Place{names_[static_cast<std::size_t>(file.index)], file.line_number, 0},
                          "file", "text", "binary data",

@@ -24,6 +24,7 @@ struct Evidence {
 constexpr double kNarrowCost = 1, kWideCost = 5;
 constexpr double kClearMargin = 0.5;  // cost by which a likely guess beats the second
 constexpr double kMaxCost = 5;        // above it nothing fits
+constexpr double kDoubtMargin = 3;    // by which the stated system may be worse than the best one
 
 double decades_outside(double value, double low, double high) {
   if (value < low) return std::log10(low / value);
@@ -118,6 +119,40 @@ std::vector<Evidence> evidence_of(const Deck& deck) {
   return all;
 }
 
+// Sizes and times alone name no mass unit.
+bool tells_mass(const std::vector<Evidence>& evidence) {
+  return std::any_of(evidence.begin(), evidence.end(), [](const Evidence& one) {
+    return std::string_view(one.unit).starts_with("kg") || std::string_view(one.unit) == "Pa";
+  });
+}
+
+double cost_of(const std::vector<Evidence>& evidence, UnitSystem system) {
+  double sum = 0;
+  for (const Evidence& one : evidence) sum += cost(one, unit_factors(system));
+  return sum;
+}
+
+std::vector<std::pair<double, UnitSystem>> ranking(const std::vector<Evidence>& evidence) {
+  std::vector<std::pair<double, UnitSystem>> costs;
+  for (const UnitSystem system :
+       {UnitSystem::MmKgMs, UnitSystem::MmTonneS, UnitSystem::MKgS, UnitSystem::MmGramMs,
+        UnitSystem::CmGramUs, UnitSystem::InchSlinchS})
+    costs.emplace_back(cost_of(evidence, system), system);
+  std::stable_sort(costs.begin(), costs.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  return costs;
+}
+
+std::vector<std::string> reasons_for(const std::vector<Evidence>& evidence, UnitSystem system) {
+  const UnitFactors factors = unit_factors(system);
+  std::vector<std::string> reasons;
+  for (const Evidence& one : evidence)
+    reasons.push_back(fmt::format("{} {:g} -> {:.3g} {}{}", one.word, one.value,
+                                  one.value * one.factor(factors), one.unit,
+                                  cost(one, factors) > 0 ? " (unusual)" : ""));
+  return reasons;
+}
+
 }  // namespace
 
 UnitsGuess guess_units(const Deck& deck) {
@@ -128,32 +163,30 @@ UnitsGuess guess_units(const Deck& deck) {
     return guess;
   }
   const std::vector<Evidence> evidence = evidence_of(deck);
-  // Sizes and times alone name no mass unit.
-  const auto tells_mass = [](const Evidence& one) {
-    return std::string_view(one.unit).find("kg") == 0 || std::string_view(one.unit) == "Pa";
-  };
-  if (std::none_of(evidence.begin(), evidence.end(), tells_mass)) return guess;
-  std::vector<std::pair<double, UnitSystem>> costs;
-  for (const UnitSystem system :
-       {UnitSystem::MmKgMs, UnitSystem::MmTonneS, UnitSystem::MKgS, UnitSystem::MmGramMs,
-        UnitSystem::CmGramUs, UnitSystem::InchSlinchS}) {
-    double sum = 0;
-    for (const Evidence& one : evidence) sum += cost(one, unit_factors(system));
-    costs.emplace_back(sum, system);
-  }
-  std::stable_sort(costs.begin(), costs.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (!tells_mass(evidence)) return guess;
+  const auto costs = ranking(evidence);
   guess.system = costs[0].second;
   const bool is_clear =
       costs[1].first - costs[0].first >= kClearMargin && costs[0].first <= kMaxCost;
   guess.certainty = is_clear ? UnitsGuess::Certainty::Likely : UnitsGuess::Certainty::Ambiguous;
   if (!is_clear) guess.second = costs[1].second;
-  const UnitFactors factors = unit_factors(guess.system);
-  for (const Evidence& one : evidence)
-    guess.reasons.push_back(fmt::format("{} {:g} -> {:.3g} {}{}", one.word, one.value,
-                                        one.value * one.factor(factors), one.unit,
-                                        cost(one, factors) > 0 ? " (unusual)" : ""));
+  guess.reasons = reasons_for(evidence, guess.system);
   return guess;
+}
+
+void check_units(const Deck& deck, DeckProblems& problems) {
+  if (deck.units == UnitSystem::Unknown) return;
+  const std::vector<Evidence> evidence = evidence_of(deck);
+  if (!tells_mass(evidence)) return;
+  const auto best = ranking(evidence).front();
+  if (cost_of(evidence, deck.units) < best.first + kDoubtMargin) return;
+  std::string found;
+  for (const std::string& reason : reasons_for(evidence, deck.units))
+    if (reason.ends_with("(unusual)")) found += (found.empty() ? "" : ", ") + reason;
+  problems.warnings.add(Place{deck.files.names.empty() ? "deck" : deck.files.names.front(), 0, 0},
+                        "unit system",
+                        fmt::format("{}, as the numbers look", unit_system_name(best.second)),
+                        fmt::format("{} is stated: {}", unit_system_name(deck.units), found));
 }
 
 }  // namespace crosswalk::fe

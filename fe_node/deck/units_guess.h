@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fe_node/deck/deck.h"
+#include "fe_node/deck/deck_problems.h"
 
 namespace crosswalk::fe {
 
@@ -21,5 +22,7 @@ struct UnitsGuess {
 };
 
 UnitsGuess guess_units(const Deck& deck);
+/// Warns when the numbers speak clearly against the system that is stated.
+void check_units(const Deck& deck, DeckProblems& problems);
 
 }  // namespace crosswalk::fe

@@ -158,6 +158,12 @@ void add_part_blocks(BuildContext& c, int index) {
   for (ElementKind kind : kElementKinds) {
     std::vector<int> elements = elements_of(c.mesh().table(kind), index);
     if (elements.empty()) continue;
+    if (const bool is_shell = kind == ElementKind::Quad4 || kind == ElementKind::Tri3;
+        !is_shell && c.material_of(part) == nullptr) {
+      c.problem(part.source, fmt::format("*PART_COMPOSITE {}", part.id.value), "shells alone",
+                "other elements");
+      continue;
+    }
     const ElementControls controls = element_controls(c, part);
     if (kind == ElementKind::Line2) {
       add_line_block(c, part, index, std::move(elements));

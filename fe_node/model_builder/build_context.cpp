@@ -1,16 +1,19 @@
 #include "fe_node/model_builder/build_context.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
+
+#include "common/error.h"
 
 namespace crosswalk::fe {
 
 void BuildContext::problem(Source source, std::string what, std::string expected, std::string found,
                            std::string hint) {
   ++problem_count;
-  problems.add({deck.place(source), std::move(what), std::move(expected), std::move(found),
-                std::move(hint)});
+  problems.add(deck.place(source), std::move(what), std::move(expected), std::move(found),
+               std::move(hint));
 }
 
 int BuildContext::node(DeckId id, Source source, std::string_view who) {
@@ -41,35 +44,72 @@ std::optional<Curve> BuildContext::curve(DeckId id, double x_unit, double y_unit
   }
 }
 
-std::vector<DeckId> BuildContext::set_ids(SetKind kind, DeckId id, Source source) {
-  const auto found = sets.find({kind, id});
-  if (found == sets.end()) {
-    problem(source, "set", "a set of the deck", std::to_string(id.value));
-    return {};
+namespace {
+
+/// Gathers the members of a set, of the sets it adds, and of those they add: each set once.
+class SetMembers {
+ public:
+  SetMembers(BuildContext& context, SetKind kind) : c_(context), kind_(kind) {}
+
+  void add(DeckId id, Source source) {
+    const auto found = c_.sets.find({kind_, id});
+    if (found == c_.sets.end())
+      return c_.problem(source, "set", "a set of the deck", std::to_string(id.value));
+    const DeckSet& set = *found->second;
+    if (std::find(open_.begin(), open_.end(), &set) != open_.end())
+      return c_.problem(set.source, fmt::format("set {}", id.value), "sets that do not name it",
+                        "itself among the sets it adds");
+    if (!done_.insert(&set).second) return;
+    open_.push_back(&set);
+    ids.insert(ids.end(), set.ids.begin(), set.ids.end());
+    for (const auto& [first, last] : set.ranges) add_range(first, last);
+    for (const DeckId other : set.added_sets) add(other, set.source);
+    for (const GeneralEntry& entry : set.general) add_general(set, entry);
+    open_.pop_back();
   }
-  const DeckSet& set = *found->second;
-  std::vector<DeckId> ids = set.ids;
-  for (const auto& [first, last] : set.ranges)
-    for (std::int32_t i = first.value; i <= last.value; ++i) ids.emplace_back(i);
-  for (DeckId other : set.added_sets) {
-    const std::vector<DeckId> more = set_ids(kind, other, set.source);
-    ids.insert(ids.end(), more.begin(), more.end());
+
+  std::vector<DeckId> ids;
+
+ private:
+  /// Only members that exist: a range may span more numbers than a deck has entities.
+  void add_range(DeckId first, DeckId last) {
+    const auto add_within = [&](DeckId id) {
+      if (first <= id && id <= last) ids.push_back(id);
+    };
+    if (kind_ == SetKind::Node)
+      for (const DeckNode& node : c_.deck.nodes) add_within(node.id);
+    else
+      for (const Part& part : c_.deck.parts) add_within(part.id);
   }
-  for (const GeneralEntry& entry : set.general) {
-    if (entry.option == "ALL" && kind == SetKind::Node) {
-      for (const DeckNode& n : deck.nodes) ids.push_back(n.id);
-    } else if (entry.option == "PART" && kind == SetKind::Node) {
+
+  void add_general(const DeckSet& set, const GeneralEntry& entry) {
+    if (entry.option == "ALL" && kind_ == SetKind::Node) {
+      for (const DeckNode& n : c_.deck.nodes) ids.push_back(n.id);
+    } else if (entry.option == "PART" && kind_ == SetKind::Node) {
       for (DeckId part : entry.ids)
-        if (const auto index = part_index.find(part); index != part_index.end())
-          for (int n : nodes_of_parts({index->second})) ids.push_back(mesh().node_id[n]);
+        if (const auto index = c_.part_index.find(part); index != c_.part_index.end())
+          for (int n : c_.nodes_of_parts({index->second})) ids.push_back(c_.mesh().node_id[n]);
     } else if (entry.option == "NODE" || entry.option == "PART") {
       ids.insert(ids.end(), entry.ids.begin(), entry.ids.end());
     } else {
-      problem(set.source, fmt::format("set {} option {}", id.value, entry.option),
-              "ALL, PART or NODE", entry.option);
+      c_.problem(set.source, fmt::format("set {} option {}", set.id.value, entry.option),
+                 "ALL, PART or NODE", entry.option);
     }
   }
-  return ids;
+
+  BuildContext& c_;
+  SetKind kind_;
+  std::vector<const DeckSet*> open_;
+  std::set<const DeckSet*> done_;
+};
+
+}  // namespace
+
+std::vector<DeckId> BuildContext::set_ids(SetKind kind, DeckId id, Source source) {
+  CW_ASSERT(kind == SetKind::Node || kind == SetKind::Part);
+  SetMembers members(*this, kind);
+  members.add(id, source);
+  return std::move(members.ids);
 }
 
 std::vector<int> BuildContext::node_set(DeckId id, Source source) {

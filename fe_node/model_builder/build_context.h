@@ -6,6 +6,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "fe_node/deck/deck_problems.h"
 #include "fe_node/element/element_controls.h"
 #include "fe_node/model_builder/model_builder.h"
 
@@ -16,7 +17,7 @@ struct BuildContext {
   const BuildOptions& options;
   UnitFactors units;
   BuiltModel& built;
-  Diagnostics problems{};
+  ProblemList problems{};
   int problem_count = 0;
 
   std::unordered_map<DeckId, int> node_index{};
@@ -40,7 +41,7 @@ struct BuildContext {
   /// A curve in SI, or nothing and a problem.
   std::optional<Curve> curve(DeckId id, double x_unit, double y_unit, Source source,
                              std::string_view who, Curve::Outside outside = Curve::Outside::Hold);
-  /// Members of a set by user id: list, ranges and added sets.
+  /// Members of a node or part set by user id: list, ranges and added sets.
   std::vector<DeckId> set_ids(SetKind kind, DeckId id, Source source);
   std::vector<int> node_set(DeckId id, Source source);  ///< indices, rising
   std::vector<int> part_set(DeckId id, Source source);
@@ -60,5 +61,7 @@ void build_joints(BuildContext& context);
 void build_contacts(BuildContext& context);
 void build_mesh_contacts(BuildContext& context);
 void build_outputs(BuildContext& context);
+/// What would let a run end in nonsense: bodies without mass, elements without a stable step.
+void check_model(BuildContext& context);
 
 }  // namespace crosswalk::fe

@@ -196,8 +196,9 @@ std::optional<LineLaw> truss_law(BuildContext& c, const Material& material, doub
     if (m->activation > 0) {
       law.activation = Curve({0}, {m->activation});
     } else if (m->activation < 0) {
-      const auto a = c.curve(DeckId(static_cast<std::int32_t>(-m->activation)), u.time, 1,
-                             material.source, card(material));
+      const double number = std::min(-m->activation, 2147483647.0);
+      const auto a = c.curve(DeckId(static_cast<std::int32_t>(number)), u.time, 1, material.source,
+                             card(material));
       if (!a) return std::nullopt;
       law.activation = *a;
     }

@@ -13,6 +13,10 @@
 namespace crosswalk::fe {
 namespace {
 
+Place place_of(const Deck& deck) {
+  return deck.files.names.empty() ? Place{} : Place{deck.files.names[0]};
+}
+
 /// What the caller or the deck states; else a clear guess, which the user is told of.
 UnitFactors units_of(const Deck& deck, const BuildOptions& options,
                      std::vector<std::string>& notes) {
@@ -25,8 +29,7 @@ UnitFactors units_of(const Deck& deck, const BuildOptions& options,
     for (const std::string& reason : guess.reasons) note += "; " + reason;
     notes.push_back(std::move(note));
   } else if (guess.certainty != UnitsGuess::Certainty::Stated) {
-    throw UserError(Problem{deck.files.names.empty() ? Place{} : Place{deck.files.names[0]},
-                            "unit system", "one stated", "none",
+    throw UserError(Problem{place_of(deck), "unit system", "one stated", "none",
                             "add a line `$ crosswalk: unit_system=mm-t-s` or give --units"});
   }
   return unit_factors(guess.system);
@@ -138,6 +141,10 @@ void finish_model(BuiltModel& built) {
 }
 
 BuiltModel build_model(const Deck& deck, const BuildOptions& options) {
+  if (deck.solids.empty() && deck.shells.empty() && deck.thick_shells.empty() &&
+      deck.beams.empty() && deck.discretes.empty() && deck.seatbelts.empty())
+    throw UserError(
+        Problem{place_of(deck), "elements", "one or more", "none", "nothing can be run"});
   BuiltModel built;
   BuildContext context{deck, options, units_of(deck, options, built.notes), built};
   index_by_id(deck.sections, context.sections);
@@ -155,7 +162,8 @@ BuiltModel build_model(const Deck& deck, const BuildOptions& options) {
   build_mesh_contacts(context);
   build_outputs(context);
   read_controls(context);
-  context.problems.finish();
+  check_model(context);
+  if (!context.problems.empty()) throw UserError(context.problems.summary());
   return built;
 }
 

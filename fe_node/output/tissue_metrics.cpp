@@ -71,6 +71,8 @@ TissueSample TissueMetrics::sample(const Model& model, const State& state, std::
     TissueSample::Region region;
     std::vector<std::pair<double, double>> strain, peak, stress;
     double total = 0, above_15 = 0, above_25 = 0;
+    if (!members.empty())
+      region.pressure_min = region.pressure_max = values[members.front()].pressure;
     for (int i : members) {
       const double volume = elements_[i].volume;
       strain.emplace_back(values[i].strain, volume);

@@ -7,7 +7,7 @@
 #include "common/error.h"
 #include "common/log.h"
 #include "fe_node/deck/deck_writer.h"
-#include "fe_node/deck/keyword_reader.h"
+#include "fe_node/deck/runnable.h"
 #include "fe_node/generate/deck_export.h"
 
 namespace crosswalk::fe::validate {
@@ -108,13 +108,14 @@ DeckRun::DeckRun(const Deck& deck, const std::filesystem::path& folder, int thre
   std::filesystem::create_directories(folder);
   const std::filesystem::path path = folder / "case.k";
   write_deck(path, deck);
-  const Deck read = require_runnable(read_deck(path), MissingPolicy::Refuse);
+  ReadDeck read = read_deck(path);
+  require_runnable(read, MissingPolicy::Refuse);
   BuildOptions options;
   options.mass_scaling_step = 0;
-  built_ = build_model(read, options);
+  built_ = build_model(read.deck, options);
   if (added_mass_limit > 0) {
     options.mass_scaling_step = mass_scaling_step_for(built_.model, added_mass_limit);
-    built_ = build_model(read, options);
+    built_ = build_model(read.deck, options);
   }
   finish_model(built_);
   const std::vector<DeckId>& id = built_.model.mesh.node_id;

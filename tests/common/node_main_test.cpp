@@ -104,9 +104,17 @@ TEST_F(NodeMain, CheckReportsMistakesOfOwnAndSharedTables) {
 
 TEST_F(NodeMain, OtherFilesGoToTheProgram) {
   fs::path seen;
-  program_.check_file = [&](const fs::path& file) { seen = file; };
+  bool is_strict = false;
+  program_.check_file = [&](CLI::App& options) {
+    options.add_flag("--strict", is_strict);
+    return [&](const fs::path& file) {
+      seen = file;
+      return is_strict ? ExitCode::UserError : ExitCode::Done;
+    };
+  };
   EXPECT_EQ(call({"check", "head.k"}), 0);
   EXPECT_EQ(seen, "head.k");
+  EXPECT_EQ(call({"check", "--strict", "head.k"}), 2);
 }
 
 TEST_F(NodeMain, KeysPrintTheReference) {

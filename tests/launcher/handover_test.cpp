@@ -12,6 +12,9 @@ TEST(Handover, CommandsFindTheirProgram) {
   EXPECT_EQ(program_for("solve", {"x.k"}), "fe_node");
   EXPECT_EQ(program_for("bench", {}), "fe_node");
   EXPECT_EQ(program_for("bench", {"coupling"}), "coupler");
+  EXPECT_EQ(program_for("check", {"--include-path", "meshes", "car.key"}), "fe_node");
+  EXPECT_EQ(program_for("check", {"v2370.toml"}), "");
+  EXPECT_EQ(program_for("check", {"v2370"}), "");
   EXPECT_EQ(program_for("run", {}), "");
   EXPECT_EQ(program_for("frobnicate", {}), "");
 }

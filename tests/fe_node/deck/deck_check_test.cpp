@@ -46,9 +46,9 @@ TEST(DeckCheck, InsideOutAndFlatSolids) {
 TEST(DeckCheck, MissingNodesAndParts) {
   EXPECT_EQ(problems_of(kCube + "*ELEMENT_SOLID\n       1       9       1       2       3       4  "
                                 "     5       6      77      88\n"),
-            "error test.k:18: solid 1: expected part 9, found none of that number\n"
             "error test.k:18: solid 1: expected node 77, found none of that number, and 1 more "
-            "like it\n");
+            "like it\n"
+            "error test.k:18: solid 1: expected part 9, found none of that number\n");
   EXPECT_EQ(
       problems_of(kCube + "*ELEMENT_SOLID\n       1       1\n"),
       "error test.k:18: *ELEMENT_SOLID card 2: expected another line, found the end of the "
@@ -96,6 +96,14 @@ TEST(DeckCheck, ThickShellsAreRefused) {
       problems_of(kCube + "*ELEMENT_TSHELL\n       1       1       1       2       3       4       "
                           "5       6       7       8\n"),
       testing::HasSubstr("*ELEMENT_TSHELL: expected solids or shells, found 1 thick shells"));
+}
+
+TEST(DeckCheck, APartThatManyElementsMissIsOneProblem) {
+  std::string text = "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n*ELEMENT_SHELL\n";
+  for (int i = 1; i <= 50; ++i) text += std::to_string(i) + ",7,1,2,3,4\n";
+  EXPECT_EQ(problems_of(text),
+            "error test.k:7: shell 1: expected part 7, found none of that number, and 49 elements "
+            "like it\n");
 }
 
 }  // namespace

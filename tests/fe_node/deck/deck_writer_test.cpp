@@ -47,6 +47,19 @@ std::vector<std::string> all_keywords() {
   return out;
 }
 
+TEST(DeckWriter, CardsOfAKeywordWithoutANameStayItsOwn) {
+  const Deck deck = read_text("*NODE\n1,0,0,0\n*\n3,4\n").deck;
+  EXPECT_EQ(read_text(deck_text(deck)).deck, deck);
+}
+
+TEST(DeckWriter, TheFirstKeywordIsNeverOneToKeep) {
+  for (const char* text : {"*KEYWORD%\n*NODE\n1,0,0,0\n", "*KEYWORD +\n*NODE\n1,0,0,0\n"}) {
+    const Deck deck = read_text(text).deck;
+    EXPECT_TRUE(deck.unread.empty());
+    EXPECT_EQ(read_text(deck_text(deck)).deck, deck);
+  }
+}
+
 TEST(DeckWriter, EveryKeywordReadsBackEqual) {
   for (const std::string& keyword : all_keywords()) {
     const Deck deck = read_text(numbered_cards(keyword)).deck;

@@ -1,6 +1,9 @@
 // Third-party example decks, read from the folder that CROSSWALK_DECKS names; skipped without it.
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 
 #include "fe_node/deck/deck_report.h"
 #include "fe_node/deck/deck_writer.h"
@@ -11,6 +14,38 @@ namespace crosswalk::fe {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// A count of lines that knows nothing of the reader: data lines below *NODE, shells of one or two
+/// lines, solids of one or two, *MAT keywords.
+struct PlainCount {
+  long nodes = 0, shells = 0, solids = 0, materials = 0;
+
+  void add_file(const fs::path& file) {
+    std::ifstream in(file);
+    std::string keyword;
+    long row = 0, solid_rows = 1;
+    for (std::string line; std::getline(in, line);) {
+      if (line.starts_with('$')) continue;
+      if (line.starts_with('*')) {
+        keyword = line.substr(1, line.find_first_of(" \r+") - 1);
+        row = 0;
+        if (keyword == "END") return;
+        if (keyword.starts_with("MAT_") && !keyword.starts_with("MAT_ADD")) ++materials;
+        continue;
+      }
+      const bool is_blank = line.find_first_not_of(" \t\r") == std::string::npos;
+      if (is_blank) continue;
+      ++row;
+      std::istringstream fields(line);
+      const long count = std::distance(std::istream_iterator<std::string>(fields), {});
+      if (row == 1) solid_rows = count <= 2 ? 2 : 1;
+      if (keyword == "NODE") ++nodes;
+      if (keyword == "ELEMENT_SHELL") ++shells;
+      if (keyword == "ELEMENT_SHELL_THICKNESS" && row % 2 == 1) ++shells;
+      if (keyword == "ELEMENT_SOLID" && row % solid_rows == 0) ++solids;
+    }
+  }
+};
 
 class ExampleDecks : public testing::Test {
  protected:
@@ -97,6 +132,19 @@ TEST_F(ExampleDecks, AnIncludeTreeNeedsItsSearchPath) {
   EXPECT_TRUE(read.deck.missing_includes.empty());
   EXPECT_EQ(read.deck.nodes.size(), 1781U);
   EXPECT_EQ(read.deck.solids.size(), 729U);
+}
+
+TEST_F(ExampleDecks, CountsAgreeWithAPlainCountOfLines) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+    if (entry.path().extension() != ".k" && entry.path().extension() != ".key") continue;
+    const ReadDeck read = read_deck(entry.path());
+    PlainCount plain;
+    for (const std::string& file : read.deck.files.names) plain.add_file(file);
+    EXPECT_EQ(static_cast<long>(read.deck.nodes.size()), plain.nodes) << entry.path();
+    EXPECT_EQ(static_cast<long>(read.deck.shells.size()), plain.shells) << entry.path();
+    EXPECT_EQ(static_cast<long>(read.deck.solids.size()), plain.solids) << entry.path();
+    EXPECT_EQ(static_cast<long>(read.deck.materials.size()), plain.materials) << entry.path();
+  }
 }
 
 TEST_F(ExampleDecks, EveryOneReadsReportsAndReadsBackEqual) {

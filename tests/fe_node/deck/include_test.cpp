@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include "fe_node/deck/runnable.h"
 #include "tests/fe_node/deck/deck_text.h"
 
 namespace crosswalk::fe {
@@ -60,7 +61,8 @@ TEST_F(IncludeTest, AllMissingFilesAreListed) {
   EXPECT_EQ(read.deck.missing_includes.size(), 2U);
   EXPECT_EQ(read.deck.nodes.size(), 1U);
   try {
-    require_runnable(read_deck(folder_ / "top.k"), MissingPolicy::Refuse);
+    ReadDeck again = read_deck(folder_ / "top.k");
+    require_runnable(again, MissingPolicy::Refuse);
     FAIL();
   } catch (const UserError& error) {
     EXPECT_EQ(error.problems().size(), 2U);

@@ -84,6 +84,17 @@ TEST(MalformedDeck, AHugeLineFromAFileIsStreamed) {
   EXPECT_THAT(report.text, testing::HasSubstr("expected at most 4096 characters"));
 }
 
+TEST(MalformedDeck, AByteOrderMarkIsNoText) {
+  EXPECT_EQ(errors_of("\xEF\xBB\xBF*NODE\n       1\n"), "");
+  EXPECT_NE(errors_of("*NODE\n\xEF\xBB\xBF       1\n"), "");
+}
+
+TEST(MalformedDeck, CoordinatesOutOfRangeAreRefused) {
+  ReadDeck read = read_text("*NODE\n1,1e13\n2,-1.0+20,0.\n3,1e11\n");
+  EXPECT_FALSE(report_deck(read, "far.k").is_sound);
+  EXPECT_EQ(read.problems.errors.total(), 2);
+}
+
 TEST(MalformedDeck, BlankLinesWithoutEnd) {
   EXPECT_EQ(errors_of("*MAT_ELASTIC\n         1     7.8-6     210.0       0.3\n" +
                       std::string(100000, '\n')),

@@ -36,6 +36,23 @@ TEST(UnitsGuess, AStatementEndsTheGuessing) {
   EXPECT_EQ(guess_units(deck).certainty, UnitsGuess::Certainty::Stated);
 }
 
+TEST(UnitsGuess, AStatementAgainstTheNumbersIsDoubted) {
+  Deck deck = steel(UnitSystem::MmTonneS);
+  for (const UnitSystem stated : {UnitSystem::MmTonneS, UnitSystem::MmKgMs}) {
+    deck.units = stated;
+    DeckProblems problems;
+    check_units(deck, problems);
+    EXPECT_TRUE(problems.errors.empty());
+    if (stated == UnitSystem::MmTonneS) {
+      EXPECT_EQ(all_problems(problems), "");
+    } else {
+      EXPECT_THAT(all_problems(problems),
+                  testing::HasSubstr("expected mm-t-s, as the numbers look, found mm-kg-ms is "
+                                     "stated: density"));
+    }
+  }
+}
+
 TEST(UnitsGuess, AMeshAloneTellsNothing) {
   Deck deck;
   deck.nodes.emplace_back().position = {100, 0, 0};

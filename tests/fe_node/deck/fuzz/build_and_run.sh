@@ -1,17 +1,33 @@
 #!/bin/sh
 # Builds the deck fuzzer with clang and runs it on the corpus: build_and_run.sh SECONDS [WORK_FOLDER]
-# Needs clang-14 and libclang-rt-14-dev. New inputs stay in the work folder; shrink them into the
-# corpus with -merge=1 when they cover more.
+# Needs clang-14 and libclang-rt-14-dev. Objects and new inputs stay in the work folder; shrink the
+# inputs into the corpus with ./deck_fuzzer -merge=1 CORPUS found when they cover more.
 set -eu
 root=$(cd "$(dirname "$0")/../../../.." && pwd)
 seconds=${1:?seconds to run}
 work=${2:-$(mktemp -d)}
-mkdir -p "$work/found"
-clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all \
-  -include "$root"/tests/fe_node/deck/fuzz/source_location_for_clang14.h \
-  -I"$root" -isystem /usr/include/eigen3 \
-  "$root"/tests/fe_node/deck/fuzz/deck_fuzzer.cpp "$root"/fe_node/deck/*.cpp \
-  "$root"/common/error.cpp "$root"/common/spatial.cpp -lfmt -o "$work/deck_fuzzer"
+mkdir -p "$work/found" "$work/objects"
 cd "$work"
+flags="-std=c++20 -O1 -g1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+  -include $root/tests/fe_node/deck/fuzz/source_location_for_clang14.h
+  -I$root -isystem /usr/include/eigen3"
+compile() {
+  object=objects/$(echo "${1#"$root"/}" | tr / _).o
+  # shellcheck disable=SC2086
+  [ "$object" -nt "$1" ] || clang++ $flags -c "$1" -o "$object"
+}
+running=0
+for source in "$root"/tests/fe_node/deck/fuzz/deck_fuzzer.cpp "$root"/fe_node/deck/*.cpp \
+  "$root"/fe_node/model_builder/*.cpp "$root"/fe_node/mesh/*.cpp "$root"/fe_node/material/*.cpp \
+  "$root"/fe_node/element/*.cpp "$root"/fe_node/contact/*.cpp "$root"/fe_node/constraint/*.cpp \
+  "$root"/fe_node/model.cpp "$root"/fe_node/state.cpp "$root"/fe_node/solver.cpp \
+  "$root"/fe_node/energy.cpp \
+  "$root"/common/error.cpp "$root"/common/spatial.cpp "$root"/common/curve.cpp; do
+  compile "$source" &
+  running=$((running + 1))
+  [ $((running % ${JOBS:-2})) -ne 0 ] || wait
+done
+wait
+clang++ -fsanitize=fuzzer,address,undefined objects/*.o -lfmt -o deck_fuzzer
 exec ./deck_fuzzer -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=2048 \
   -dict="$root"/tests/fe_node/deck/fuzz/keywords.dict found "$root"/tests/fe_node/deck/fuzz/corpus

@@ -1,0 +1,88 @@
+// Decks that cannot become a model: every reason at once, with its place.
+#include "common/error.h"
+#include "tests/fe_node/model_builder/built_deck.h"
+
+namespace crosswalk::fe {
+namespace {
+
+using testing::HasSubstr;
+
+/// What stands against the deck, one problem a line.
+std::string problems_of(const std::string& text) {
+  try {
+    model_of(text);
+  } catch (const UserError& error) {
+    std::string out;
+    for (const Problem& problem : error.problems()) out += problem.text() + '\n';
+    return out;
+  }
+  return "none";
+}
+
+TEST(ModelProblems, ASoundDeckHasNone) { EXPECT_EQ(problems_of(kCube), "none"); }
+
+TEST(ModelProblems, AllAreToldAtOnceWithTheirPlaces) {
+  const std::string found = problems_of(
+      kCube +
+      "*CONSTRAINED_JOINT_SPHERICAL\n1,2\n*LOAD_NODE_POINT\n1,1,99\n"
+      "*BOUNDARY_SPC_NODE\n77,0,1\n*ELEMENT_SOLID\n5,9,1,2,3,4,5,6,7,8\n6,1,5,6,7,8,1,2,3,4\n");
+  for (const char* text :
+       {"expected a *DEFINE_CURVE of the deck, found 99", "expected a node of the deck, found 77",
+        "*ELEMENT_SOLID 5: expected a part of the deck, found 9",
+        "*ELEMENT_SOLID 6: expected a positive volume", "test.k:"})
+    EXPECT_THAT(found, HasSubstr(text));
+}
+
+TEST(ModelProblems, ManyOfOneKindDoNotHideTheOthers) {
+  std::string text = kCube + "*ELEMENT_SOLID\n";
+  for (int i = 10; i < 200; ++i) text += std::to_string(i) + ",9,1,2,3,4,5,6,7,8\n";
+  const std::string found = problems_of(text + "*LOAD_NODE_POINT\n1,1,99\n");
+  EXPECT_THAT(found, HasSubstr("found 99"));
+  EXPECT_THAT(found, HasSubstr("in all 190 *ELEMENT_SOLID"));
+}
+
+TEST(ModelProblems, NothingToRun) {
+  EXPECT_THAT(problems_of(kCubeNodes), HasSubstr("elements: expected one or more, found none"));
+}
+
+TEST(ModelProblems, ABodyWithoutMass) {
+  EXPECT_THAT(problems_of(kCube + "*PART\nghost\n2,1,2\n*MAT_RIGID\n2,7.8e-6,210.0,0.3\n0\n0\n"),
+              HasSubstr("rigid body 'ghost': expected a mass above zero"));
+}
+
+TEST(ModelProblems, ASpringWithoutLengthHasNoDirection) {
+  EXPECT_THAT(problems_of(kCube + "*PART\nspring\n2,2,2\n*SECTION_DISCRETE\n2\n0\n"
+                                  "*MAT_SPRING_ELASTIC\n2,0.5\n*ELEMENT_DISCRETE\n11,2,6,0\n"),
+              HasSubstr("line element 11: expected two ends apart"));
+}
+
+TEST(ModelProblems, SolidsOfACompositePart) {
+  EXPECT_THAT(problems_of(kCubeNodes +
+                          "*MAT_ELASTIC\n1,7.8e-6,210.0,0.3\n*PART_COMPOSITE\n"
+                          "laminate\n1,2\n1,1.0\n" +
+                          kCubeElement),
+              HasSubstr("expected shells alone"));
+}
+
+TEST(ModelProblems, ASetThatNamesItself) {
+  EXPECT_THAT(problems_of(kCube + "*SET_NODE_ADD\n1\n2\n*SET_NODE_ADD\n2\n1\n"),
+              HasSubstr("itself among the sets it adds"));
+}
+
+TEST(ModelProblems, NumbersThatLeaveNoStableStep) {
+  EXPECT_THAT(problems_of(kCubeNodes +
+                          "*PART\ncube\n1,1,1\n*SECTION_SOLID\n1,1\n*MAT_ELASTIC\n"
+                          "1,7.8e-6,1e305,0.3\n" +
+                          kCubeElement),
+              HasSubstr("expected a finite mass and stable step above zero"));
+}
+
+TEST(ModelProblems, LawsThatElementsDoNotHaveAreNamed) {
+  const std::string found = problems_of(
+      kCubeNodes + "*PART\ncube\n1,1,1\n*SECTION_SOLID\n1,1\n*MAT_NULL\n1,7.8e-6\n" + kCubeElement);
+  EXPECT_THAT(found, HasSubstr("*MAT_NULL 1"));
+  EXPECT_THAT(found, HasSubstr("a law that solid elements have"));
+}
+
+}  // namespace
+}  // namespace crosswalk::fe

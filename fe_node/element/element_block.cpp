@@ -21,6 +21,7 @@ ElementBlock::ElementBlock(const Mesh& mesh, ElementKind kind, int part,
 }
 
 Lanes ElementBlock::lane_mask(int group) const {
+  if ((group + 1) * kLanes <= element_count()) return Lanes::Ones();
   Lanes mask;
   for (int lane = 0; lane < kLanes; ++lane)
     mask[lane] = group * kLanes + lane < element_count() ? 1.0 : 0.0;

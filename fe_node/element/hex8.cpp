@@ -120,8 +120,8 @@ void add_to_sums(const HexAnswer<Lanes>& answer, const Lanes& mask, const StepCo
   sums.hourglass += (answer.hourglass_stored * live).sum();
   sums.hourglass_dissipated += step.dt * (answer.hourglass_power * live).sum();
   sums.viscous_dissipated += step.dt * (answer.viscous_power * live).sum();
-  const Lanes J = (live > 0).select(answer.J, constant<Lanes>(1));
-  if (!(J > 0).all() && sums.inverted_element < 0) {
+  const Lanes J = where_less(constant<Lanes>(0), live, answer.J, constant<Lanes>(1));
+  if (!all_positive(J) && sums.inverted_element < 0) {
     for (int lane = kLanes - 1; lane >= 0; --lane)
       if (!(J[lane] > 0)) {
         sums.inverted_element = std::min(first_element + lane, element_count - 1);
@@ -129,12 +129,11 @@ void add_to_sums(const HexAnswer<Lanes>& answer, const Lanes& mask, const StepCo
       }
   }
   if (step.wants_stable_step) {
-    const Lanes squared = (live > 0).select(
-        answer.stable_step_squared, constant<Lanes>(std::numeric_limits<double>::infinity()));
-    int lane = 0;
-    const double smallest = std::sqrt(squared.minCoeff(&lane));
-    if (smallest < sums.stable_step) {
-      sums.stable_step = smallest;
+    const Lanes squared = where_less(constant<Lanes>(0), live, answer.stable_step_squared,
+                                     constant<Lanes>(std::numeric_limits<double>::infinity()));
+    if (squared.minCoeff() < sums.stable_step * sums.stable_step) {
+      int lane = 0;
+      sums.stable_step = std::sqrt(squared.minCoeff(&lane));
       sums.critical_element = first_element + lane;
     }
   }

@@ -54,6 +54,7 @@ class Hex8Block final : public ElementBlock {
                                std::span<double> /*corner_moments*/, int first, int last,
                                BlockSums& sums) const override {
     for (int group = first; group < last; ++group) {
+      if (group + 1 < group_count()) fetch_ahead(step.nodes, group + 1);
       const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));
       const HexAnswer<Lanes> answer = hex8_forces(shapes_.groups[group], nodes, law_, controls_,
                                                   step.dt, group_history(history, group));
@@ -88,8 +89,7 @@ class Hex8Block final : public ElementBlock {
     std::copy_n(history.data() + std::size_t(history_per_group()) * group, history_per_group(),
                 copy.front().data());
     SolidStep<Lanes> still;
-    accumulate_gradient(ref, nodes.x, still.F);
-    accumulate_gradient(ref, nodes.v, still.F_rate);
+    deformation_of(ref, nodes, still.F, still.F_rate);
     still.J = determinant(still.F);
     still.F_inverse = inverse(still.F, still.J);
     const SolidAnswer<Lanes> material = law_.update(still, copy.data());
@@ -110,6 +110,14 @@ class Hex8Block final : public ElementBlock {
   }
 
  private:
+  /// Node records are met in no order that the processor could foresee; shapes cross pages.
+  void fetch_ahead(std::span<const NodeRecord> nodes, int group) const {
+    const int* index = group_nodes(group);
+    for (int i = 0; i < 8 * kLanes; ++i) __builtin_prefetch(&nodes[index[i]]);
+    const auto* shape = reinterpret_cast<const Lanes*>(&shapes_.groups[group]);
+    for (std::size_t i = 0; i < sizeof(HexReference<Lanes>) / sizeof(Lanes); ++i)
+      __builtin_prefetch(shape + i);
+  }
   Lanes* group_history(std::span<double> history, int group) const {
     return reinterpret_cast<Lanes*>(history.data() + std::size_t(history_per_group()) * group);
   }

@@ -83,14 +83,26 @@ N largest_eigenvalue_bound(const Symmetric<N>& g) {
   return mean + y;
 }
 
+/// F and its rate, node by node: both together use every gradient once.
 template <class N>
-void accumulate_gradient(const HexReference<N>& ref, const N (&u)[8][3], Tensor<N>& out) {
-  for (int i = 0; i < 3; ++i)
+void deformation_of(const HexReference<N>& ref, const HexNodes<N>& nodes, Tensor<N>& F,
+                    Tensor<N>& F_rate) {
+  for (int node = 0; node < 8; ++node)
     for (int j = 0; j < 3; ++j) {
-      N sum = u[0][i] * ref.gradient[0][j];
-      for (int node = 1; node < 8; ++node) sum += u[node][i] * ref.gradient[node][j];
-      out(i, j) = sum * ref.inverse_volume;
+      const N b = ref.gradient[node][j];
+      for (int i = 0; i < 3; ++i)
+        if (node == 0) {
+          F(i, j) = nodes.x[node][i] * b;
+          F_rate(i, j) = nodes.v[node][i] * b;
+        } else {
+          F(i, j) += nodes.x[node][i] * b;
+          F_rate(i, j) += nodes.v[node][i] * b;
+        }
     }
+  for (int k = 0; k < 9; ++k) {
+    F(k / 3, k % 3) *= ref.inverse_volume;
+    F_rate(k / 3, k % 3) *= ref.inverse_volume;
+  }
 }
 
 /// omega^2 <= 8 J / rho0 (lambda tr g + 2 mu g_max), g = F^-T metric F^-1: the element eigenvalue
@@ -121,8 +133,7 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
                          const ElementControls& controls, double dt, N* history) {
   SolidStep<N> step;
   step.dt = dt;
-  accumulate_gradient(ref, nodes.x, step.F);
-  accumulate_gradient(ref, nodes.v, step.F_rate);
+  deformation_of(ref, nodes, step.F, step.F_rate);
   step.J = determinant(step.F);
   step.F_inverse = inverse(step.F, step.J);
 
@@ -135,14 +146,14 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
   // Bulk viscosity [hallquist2006, 3.5]: q = rho l (Q1 l e^2 - Q2 c e) in compression (e < 0).
   N expansion = step.F_rate(0, 0) * step.F_inverse(0, 0);
   for (int k = 1; k < 9; ++k) expansion += step.F_rate(k / 3, k % 3) * step.F_inverse(k % 3, k / 3);
-  const N wave_speed = square_root(
-      N((material.bulk_modulus + 4.0 / 3.0 * material.shear_modulus) * step.J / law.density));
+  const N wave_speed = square_root(N((material.bulk_modulus + 4.0 / 3.0 * material.shear_modulus) *
+                                     step.J * (1.0 / law.density)));
   const N compression = larger(N(-expansion), constant<N>(0)) * ref.length;
   const N viscous_speed = controls.quadratic_bulk * compression + controls.linear_bulk * wave_speed;
   const N q = law.density * viscous_speed * compression;  // per undeformed mass; rho0 / J * J
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) material.P(i, j) -= q * step.F_inverse(j, i);
-  answer.viscous_power = q * compression / ref.length * ref.volume;
+  answer.viscous_power = q * compression * ref.length * ref.length;  // V / l = l^2
 
   // Hourglass control; its reaction on F is folded into the stress (see hex8.h).
   answer.hourglass_stored = constant<N>(0);

@@ -46,6 +46,31 @@ inline NodeLanes load_nodes(std::span<const NodeRecord> nodes, const int* index)
   return out;
 }
 
+/// Components of eight vectors of nodes.
+inline void load_vectors(std::span<const Vec3> vectors, const int* index, Lanes& x, Lanes& y,
+                         Lanes& z) {
+#ifdef EIGEN_VECTORIZE_AVX512
+  using Packet = Eigen::internal::Packet4d;
+  const __m256i three = _mm256_setr_epi64x(-1, -1, -1, 0);
+  for (int half = 0; half < kLanes; half += 4) {
+    Eigen::internal::PacketBlock<Packet, 4> rows;
+    for (int lane = 0; lane < 4; ++lane)
+      rows.packet[lane] = _mm256_maskload_pd(vectors[index[half + lane]].data(), three);
+    Eigen::internal::ptranspose(rows);
+    Eigen::internal::pstore(x.data() + half, rows.packet[0]);
+    Eigen::internal::pstore(y.data() + half, rows.packet[1]);
+    Eigen::internal::pstore(z.data() + half, rows.packet[2]);
+  }
+#else
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const Vec3& v = vectors[index[lane]];
+    x[lane] = v.x();
+    y[lane] = v.y();
+    z[lane] = v.z();
+  }
+#endif
+}
+
 /// Writes one corner of a lane group: `to` is the corner's first double, 64-byte aligned.
 inline void store_corner(const Lanes& x, const Lanes& y, const Lanes& z, double* to) {
 #ifdef EIGEN_VECTORIZE_AVX512

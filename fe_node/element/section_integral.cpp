@@ -12,18 +12,24 @@ struct Accumulator {
   double dt;
   SectionAnswer answer;
 
+  // Flattened, with sums of its own: else they would go through memory, as the history might alias
+  // them.
   template <class Law>
-  Lanes* layer(const Law& law, const std::vector<ShellPoint>& points, Lanes* history) {
+  [[gnu::flatten]] Lanes* layer(const Law& law, const std::vector<ShellPoint>& points,
+                                Lanes* history) {
     const int size = kStress + law.history_size();
+    SectionAnswer sum = answer;
     for (const ShellPoint& point : points) {
-      add_point(law, point, history);
+      add_point(law, point, history, sum);
       history += size;
     }
+    answer = sum;
     return history;
   }
 
   template <class Law>
-  void add_point(const Law& law, const ShellPoint& point, Lanes* history) {
+  void add_point(const Law& law, const ShellPoint& point, Lanes* history,
+                 SectionAnswer& sum) const {
     const Lanes z = point.position * thickness;
     PlaneStep<Lanes> step;
     step.dt = dt;
@@ -35,15 +41,15 @@ struct Accumulator {
     const PlaneTensor<Lanes>& e = step.strain;
 
     const Lanes share = point.weight * thickness, shear_share = share * shear_factor;
-    answer.work += 0.5 * (share * ((s.xx + history[0]) * e.xx + (s.yy + history[1]) * e.yy +
-                                   (s.xy + history[2]) * e.xy) +
-                          shear_share * ((s.yz + history[3]) * e.yz + (s.zx + history[4]) * e.zx));
+    sum.work += 0.5 * (share * ((s.xx + history[0]) * e.xx + (s.yy + history[1]) * e.yy +
+                                (s.xy + history[2]) * e.xy) +
+                       shear_share * ((s.yz + history[3]) * e.yz + (s.zx + history[4]) * e.zx));
     history[0] = s.xx;
     history[1] = s.yy;
     history[2] = s.xy;
     history[3] = s.yz;
     history[4] = s.zx;
-    SectionVector& n = answer.resultants;
+    SectionVector& n = sum.resultants;
     n.xx += share * s.xx;
     n.yy += share * s.yy;
     n.xy += share * s.xy;
@@ -52,8 +58,8 @@ struct Accumulator {
     n.kxy += share * z * s.xy;
     n.yz += shear_share * s.yz;
     n.zx += shear_share * s.zx;
-    answer.thinning += point.weight * point_answer.thinning;
-    answer.alive = answer.alive.max(point_answer.alive);
+    sum.thinning += point.weight * point_answer.thinning;
+    sum.alive = sum.alive.max(point_answer.alive);
   }
 };
 

@@ -150,12 +150,7 @@ ShellGeometry<kCorners> ShellBlock<kCorners>::load(const StepContext& step, int 
     g.x[corner] = {nodes.x[0], nodes.x[1], nodes.x[2]};
     g.v[corner] = {nodes.v[0], nodes.v[1], nodes.v[2]};
     if (!is_bending) continue;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const Vec3& w = step.spin[index[lane]];
-      g.spin[corner].x[lane] = w.x();
-      g.spin[corner].y[lane] = w.y();
-      g.spin[corner].z[lane] = w.z();
-    }
+    load_vectors(step.spin, index, g.spin[corner].x, g.spin[corner].y, g.spin[corner].z);
   }
   return g;
 }
@@ -259,9 +254,11 @@ inline void store(const Lanes3& a, const Lanes& factor, double* to) {
 }
 
 template <int kCorners>
-void ShellBlock<kCorners>::forces(const StepContext& step, std::span<double> history,
-                                  std::span<double> corner_forces, std::span<double> corner_moments,
-                                  int first, int last, BlockSums& sums) const {
+[[gnu::flatten]] void ShellBlock<kCorners>::forces(const StepContext& step,
+                                                   std::span<double> history,
+                                                   std::span<double> corner_forces,
+                                                   std::span<double> corner_moments, int first,
+                                                   int last, BlockSums& sums) const {
   const bool is_bending = has_moments();
   const double half = 0.5 * step.dt;
   for (int group = first; group < last; ++group) {

@@ -27,7 +27,24 @@ inline Lanes larger(const Lanes& a, const Lanes& b) { return a.max(b); }
 /// a < b ? yes : no, lane by lane.
 inline double where_less(double a, double b, double yes, double no) { return a < b ? yes : no; }
 inline Lanes where_less(const Lanes& a, const Lanes& b, const Lanes& yes, const Lanes& no) {
+#ifdef EIGEN_VECTORIZE_AVX512  // Eigen 3.4 compares and selects lane by lane
+  Lanes out;
+  const __mmask8 less =
+      _mm512_cmp_pd_mask(_mm512_load_pd(a.data()), _mm512_load_pd(b.data()), _CMP_LT_OQ);
+  _mm512_store_pd(out.data(), _mm512_mask_blend_pd(less, _mm512_load_pd(no.data()),
+                                                   _mm512_load_pd(yes.data())));
+  return out;
+#else
   return (a < b).select(yes, no);
+#endif
+}
+/// False also for a lane that is not a number.
+inline bool all_positive(const Lanes& a) {
+#ifdef EIGEN_VECTORIZE_AVX512
+  return _mm512_cmp_pd_mask(_mm512_load_pd(a.data()), _mm512_setzero_pd(), _CMP_GT_OQ) == 0xff;
+#else
+  return (a > 0).all();
+#endif
 }
 template <class N>
 N constant(double a) {

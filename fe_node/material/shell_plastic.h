@@ -38,7 +38,7 @@ struct ShellPlastic {
 
 /// Any lane with a >= b?
 inline bool any_reaches(double a, double b) { return a >= b; }
-inline bool any_reaches(const Lanes& a, const Lanes& b) { return (a >= b).any(); }
+inline bool any_reaches(const Lanes& a, const Lanes& b) { return !all_positive(b - a); }
 
 /// Effective strain of an increment of plane stress that keeps its volume, sqrt(2/3 e:e).
 template <class N>

@@ -8,6 +8,7 @@
 
 #include <array>
 
+#include "fe_node/material/cube_root.h"
 #include "fe_node/material/material.h"
 
 namespace crosswalk::fe {
@@ -50,7 +51,8 @@ struct Viscoelastic {
     const N& J = step.J;
     const Symmetric<N> C = right_cauchy_green(step.F);
     const Symmetric<N> C_inverse = right_cauchy_green_inverse(step.F_inverse);
-    const N isochoric = exponential(N((-2.0 / 3.0) * logarithm(J)));
+    const N root = inverse_cube_root(J);
+    const N isochoric = root * root;
     const N trace_share = trace(C) * (1.0 / 3.0);
     const N a = -isochoric * trace_share;
     const Symmetric<N> T{isochoric + a * C_inverse.xx,
@@ -90,8 +92,9 @@ struct Viscoelastic {
   template <class N>
   static void relax(const Term& term, const Symmetric<N>& T, double dt, N* y, Symmetric<N>& Y,
                     Symmetric<N>& Y_middle) {
-    const double keep = std::exp(-term.decay * dt);
-    const double gain = -term.shear_modulus * (1.0 - keep);
+    // On lanes although one number would do: a library call here costs all lanes their registers.
+    const N keep = exponential(constant<N>(-term.decay * dt));
+    const N gain = -term.shear_modulus * (1.0 - keep);
     const N* const t[6] = {&T.xx, &T.yy, &T.zz, &T.xy, &T.yz, &T.zx};
     N* const sum[6] = {&Y.xx, &Y.yy, &Y.zz, &Y.xy, &Y.yz, &Y.zx};
     N* const middle[6] = {&Y_middle.xx, &Y_middle.yy, &Y_middle.zz,

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "recorder/path_gap.h"
 #include "recorder/run_report.h"
 #include "recorder/signal.h"
 
@@ -234,6 +235,28 @@ std::size_t shown_width(const std::string& text) {
 constexpr const char* kTestTitle = "CORA against the tests";
 constexpr const char* kMutualTitle = "CORA of the runs against each other";
 
+/// Head paths of the two modes should agree until something is struck: a neck of other length or
+/// place would show here.
+ReportTable path_table(const std::vector<ComparedRun>& runs) {
+  ReportTable table{"Head paths before head contact",
+                    "Distance of the head's centre of mass to that of the first run of the "
+                    "scenario, displacements since first leg contact.",
+                    {"runs", "largest distance [mm]", "at [ms]", "compared until [ms]"},
+                    {}};
+  const std::vector<std::string> labels = labels_of(runs);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::size_t k = 0;  // the first run of the scenario
+    while (scenario_of(runs[k]) != scenario_of(runs[i])) ++k;
+    if (k == i) continue;
+    const std::optional<PathGap> gap = path_gap(runs[k].analysis, runs[i].analysis);
+    if (!gap) continue;
+    table.rows.push_back(
+        {fmt::format("{} against {}", labels[i], labels[k]), fmt::format("{:.1f}", gap->largest_mm),
+         fmt::format("{:.1f}", 1e3 * gap->time), fmt::format("{:.1f}", 1e3 * gap->until)});
+  }
+  return table;
+}
+
 std::vector<ReportTable> tables_of(const std::vector<ComparedRun>& runs,
                                    const ComparisonSettings& settings) {
   std::vector<ReportTable> tables{result_table(runs)};
@@ -243,6 +266,8 @@ std::vector<ReportTable> tables_of(const std::vector<ComparedRun>& runs,
                                  "Total score C; a dash where no measured curve is available. "
                                  "Deviation: of the population, as in [yu2020, Table 3]."));
   }
+  ReportTable paths = path_table(runs);
+  if (!paths.rows.empty()) tables.push_back(std::move(paths));
   const std::vector<ScoreColumn> mutual = mutual_columns(runs, settings);
   if (!mutual.empty()) {
     tables.push_back(score_table(mutual, settings, kMutualTitle,

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "recorder/path_gap.h"
 #include "recorder/run_compare.h"
 #include "recorder/run_scene.h"
 #include "tests/recorder/synthetic_run.h"
@@ -173,6 +174,24 @@ TEST(RunCompare, OwnCurvesFillTheTableOfTheTests) {
   EXPECT_LT(speed, 0.95);
   EXPECT_NEAR(std::stod(table.rows[2][1]), (3 + speed) / 4, 1e-3);
   EXPECT_EQ(input.bars.size(), 4U);
+}
+
+TEST(RunCompare, PathGapIsTheLargestDistanceBeforeTheHeadStrikes) {
+  Analysis a = analysis_of(false), b = analysis_of(false);
+  for (Channel& channel : b.channels.channels) {
+    if (channel.name != "head_cog_x" && channel.name != "head_cog_z") continue;
+    for (std::size_t i = 0; i < channel.samples.size(); ++i) {
+      const double t = channel.time(i);
+      // 3 and 4 mm at 5 ms, and a gulf after the contact at 10 ms.
+      const double share = t < 0 ? 0 : t < 5e-3 ? t / 5e-3 : t < 10.5e-3 ? 0.9 : 100;
+      channel.samples[i] += (channel.name == "head_cog_x" ? 3 : 4) * share;
+    }
+  }
+  const std::optional<PathGap> gap = path_gap(a, b);
+  ASSERT_TRUE(gap);
+  EXPECT_NEAR(gap->largest_mm, 5, 0.11);  // one sample of 0.1 ms
+  EXPECT_NEAR(gap->time, 5e-3, 1.01e-4);
+  EXPECT_NEAR(gap->until, 10e-3, 1e-6);
 }
 
 }  // namespace

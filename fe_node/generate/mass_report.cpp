@@ -160,9 +160,15 @@ std::string MassReport::text() const {
                     row.name, i.mass, c.x(), c.y(), c.z(), i.about_com(0, 0), i.about_com(1, 1),
                     i.about_com(2, 2), i.about_com(0, 2));
   }
-  if (target_mass > 0)
-    out += fmt::format("{:<10} {:8.3f}  {:33}{:9.5f} {:9.5f} {:9.5f}\n", "target", target_mass, "",
+  if (target_mass > 0) {
+    const Inertia& head = row("head").inertia;
+    out += fmt::format("{:<10} {:8.3f}  {:26}{:9.5f} {:9.5f} {:9.5f}\n", "target", target_mass, "",
                        target_moments.x(), target_moments.y(), target_moments.z());
+    out += fmt::format("{:<10} {:8.3f}  {:26}{:9.3f} {:9.3f} {:9.3f}\n", "head / it",
+                       head.mass / target_mass, "", head.about_com(0, 0) / target_moments.x(),
+                       head.about_com(1, 1) / target_moments.y(),
+                       head.about_com(2, 2) / target_moments.z());
+  }
   out +=
       fmt::format("face density {:.0f} kg/m3, flesh density {:.0f} kg/m3, trim masses {:.3f} kg\n",
                   face_density, flesh_density, added_mass);

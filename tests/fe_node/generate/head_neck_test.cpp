@@ -128,6 +128,21 @@ TEST(HeadNeck, TrimMeetsTheLiteratureHead) {
   EXPECT_LT(from_tragion.z(), 0.043);
 }
 
+TEST(HeadNeck, ReportStandsBesideTableA1) {
+  HeadNeckSpec spec = spec_of_subject("v2370");
+  spec.mass.preset = MassPreset::Measured;
+  spec.mass.head_mass = 4.4;
+  spec.mass.head_moments = {0.0165, 0.0195, 0.0130};
+  const MassReport report = build_head_neck(spec).masses;
+  const Inertia& head = report.row("head").inertia;
+  EXPECT_NEAR(head.mass, 4.4, 0.01 * 4.4);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(head.about_com(axis, axis) / spec.mass.head_moments[axis], 1, 0.05) << axis;
+  const std::string text = report.text();
+  for (const char* part : {"head", "neck", "blocks", "assembly", "target", "5.66 kg", "6.21"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
 TEST(HeadNeck, SeedPresetWeighsWhatTableA1Says) {
   HeadNeckSpec spec;
   spec.mass.preset = MassPreset::SeedA1;

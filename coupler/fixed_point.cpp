@@ -14,6 +14,8 @@ namespace crosswalk::coupling {
 
 namespace {
 
+constexpr double kHopeless = 1e9;
+
 struct Problem {
   const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& G;
   const Eigen::VectorXd& scale;
@@ -21,8 +23,10 @@ struct Problem {
   FixedPoint result;
   std::exception_ptr failure;
 
+  // A diverging iteration ends before its wrenches overflow a solver.
   bool is_over() const {
-    return result.residual <= settings.tolerance || result.evaluations >= settings.max_iterations;
+    return result.residual <= settings.tolerance || !(result.residual < kHopeless) ||
+           result.evaluations >= settings.max_iterations;
   }
 };
 

@@ -1,5 +1,6 @@
 // coupler: the hub of a run. `coupler run --scenario FILE --run-id ID`
 #include "common/node_main.h"
+#include "coupler/bench_command.h"
 #include "coupler/broker_command.h"
 #include "coupler/coupler_node.h"
 
@@ -13,5 +14,5 @@ int main(int argc, char** argv) {
                   const Scenario& scenario) { coupling::read_coupling(document, scenario); },
        .run = coupling::run_coupler,
        .check_file = {},
-       .commands = {broker_command()}});
+       .commands = {bench_command(), broker_command()}});
 }

@@ -138,7 +138,7 @@ WindowResult advance_implicit(const SchemeSettings& settings, CouplingState& sta
   result.iterations = result.id.iteration;
   result.residual = solved.residual;
   result.converged = solved.residual <= settings.tolerance;
-  if (solved.residual > settings.accepted_residual) {
+  if (!(solved.residual <= settings.accepted_residual)) {
     throw NumericalError(
         result.id.begin_s(),
         fmt::format("the implicit iteration of window {} is at a relative residual of "

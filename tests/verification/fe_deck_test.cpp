@@ -167,6 +167,34 @@ std::string pulled_bar() {
   return text;
 }
 
+// The section between elements 4 and 5: element 4 pulls its nodes back with the applied force, and
+// turns them with its moment about the section's centre.
+TEST(FeDeck, SectionCarriesTheForceAndTheMomentOfTheLoad) {
+  BuiltModel built_model = built(pulled_bar());
+  finish_model(built_model);
+  const Model& model = built_model.model;
+  ASSERT_EQ(built_model.histories.sections.size(), 1U);
+  EXPECT_EQ(built_model.histories.nodes.size(), 1U);
+  EXPECT_EQ(built_model.histories.elements.size(), 1U);
+  EXPECT_DOUBLE_EQ(built_model.histories.interval, 1e-2);
+  State state = initial_state(model);
+  const HistoryWriter writer(model, built_model.histories,
+                             std::filesystem::path(testing::TempDir()) / "section_test");
+  run_until(model, state, 1.2, 0.9, [] {});
+  Scratch scratch(model, 1);
+  compute_forces(model, state, scratch);
+  const Wrench section = writer.section_force(state, scratch, 0);
+  EXPECT_NEAR(section.f.x(), -20, 0.02 * 20);
+  EXPECT_NEAR(section.f.y(), 0, 0.02 * 20);
+  // the load's moment about the section's centre, with the arm that bending has left
+  Vec3 arm = Vec3::Zero();
+  for (int n : built_model.histories.nodes) arm += state.nodes[n].position();
+  for (int n : built_model.histories.sections[0].nodes) arm -= 0.25 * state.nodes[n].position();
+  const Vec3 moment = -arm.cross(Vec3(20, 0, 0));
+  EXPECT_NEAR(section.tau.y(), moment.y(), 0.02 * moment.norm());
+  EXPECT_NEAR(section.tau.z(), moment.z(), 0.02 * moment.norm());
+}
+
 // A pressure on the far end follows it and is carried through the section: p A.
 TEST(FeDeck, PressureOnSegmentsIsCarriedThroughTheSection) {
   std::string text = pulled_bar();
@@ -184,6 +212,32 @@ TEST(FeDeck, PressureOnSegmentsIsCarriedThroughTheSection) {
   EXPECT_NEAR(writer.section_force(state, scratch, 0).f.x(), 3000 * 0.01, 0.01 * 30);
   // work done on the bar: p A times half the shortening of its end, and what damping took
   EXPECT_LT(std::abs(state.energies.balance_error()), 0.01);
+}
+
+// Belytschko-Schwer beam of a deck: tip deflection F L^3 / (3 E I) + F L / (G A_s).
+TEST(FeDeck, BeamDeflectsAsTimoshenkos) {
+  std::string text =
+      "*SECTION_BEAM\n1,2\n2e-4,6.6667e-9,1.6667e-9,4.58e-9,1.6667e-4\n*PART\nbeam\n1,1,1\n"
+      "*MAT_ELASTIC\n1,7850,210e9,0.3\n*NODE\n";
+  for (int i = 0; i <= 10; ++i) text += node_card(i + 1, {0.05 * i, 0, 0});
+  text += node_card(20, {0, 1, 0}) + "*ELEMENT_BEAM\n";
+  for (int i = 1; i <= 10; ++i) text += fmt::format("{},1,{},{},20\n", i, i, i + 1);
+  text +=
+      "*BOUNDARY_SPC_NODE\n1,0,1,1,1,1,1,1\n*LOAD_NODE_POINT\n11,3,1,10\n*LOAD_NODE_POINT\n"
+      "11,2,1,10\n*DEFINE_CURVE\n1\n0,0\n0.02,1\n1,1\n*DAMPING_GLOBAL\n0,420\n";
+  BuiltModel built_model = built(text);
+  finish_model(built_model);
+  const Model& model = built_model.model;
+  State state = initial_state(model);
+  run_until(model, state, 0.08, 0.9, [] {});
+  int tip = -1;
+  for (int n = 0; n < model.mesh.node_count(); ++n)
+    if (model.mesh.node_id[n] == DeckId(11)) tip = n;
+  const double shear = 10 * 0.5 / (210e9 / 2.6 * 1.6667e-4);
+  const double z = 10 * 0.125 / (3 * 210e9 * 6.6667e-9) + shear;  // bends about s, which is y
+  const double y = 10 * 0.125 / (3 * 210e9 * 1.6667e-9) + shear;
+  EXPECT_NEAR(state.nodes[tip].x[2], z, 0.01 * z);
+  EXPECT_NEAR(state.nodes[tip].x[1], y, 0.01 * y);
 }
 
 TEST(FeDeck, SolidFormulationsChooseTheirElement) {

@@ -78,8 +78,18 @@ class SetMembers {
     };
     if (kind_ == SetKind::Node)
       for (const DeckNode& node : c_.deck.nodes) add_within(node.id);
-    else
+    else if (kind_ == SetKind::Part)
       for (const Part& part : c_.deck.parts) add_within(part.id);
+    else
+      for (const ElementKind kind : kElementKinds)
+        if (is_of_set(kind))
+          for (const DeckId id : c_.mesh().table(kind).id) add_within(id);
+  }
+
+  bool is_of_set(ElementKind kind) const {
+    if (kind_ == SetKind::Shell) return kind == ElementKind::Quad4 || kind == ElementKind::Tri3;
+    if (kind_ == SetKind::Solid) return kind == ElementKind::Hex8 || kind == ElementKind::Tet4;
+    return kind == ElementKind::Line2;
   }
 
   void add_general(const DeckSet& set, const GeneralEntry& entry) {
@@ -106,7 +116,6 @@ class SetMembers {
 }  // namespace
 
 std::vector<DeckId> BuildContext::set_ids(SetKind kind, DeckId id, Source source) {
-  CW_ASSERT(kind == SetKind::Node || kind == SetKind::Part);
   SetMembers members(*this, kind);
   members.add(id, source);
   return std::move(members.ids);

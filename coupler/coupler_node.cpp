@@ -83,14 +83,15 @@ ExitCode run_coupler(RunContext& context) {
            .first_window = first_window},
           config.patience, interrupt_flag(), tell);
   hub.claim();
+  // Out here, for the nodes' answers may still come while abort() tells them to leave.
+  LcmMbLink mb(hub);
+  LcmFeLink fe(hub, mb);
   std::int64_t window = 0;
   try {
     const std::vector<InterfaceBody> bodies = hub.gather();
     const Heartbeat heartbeat(bus, [&hub] { return hub.status(); });
     settings.scheme.n_attached = hub.n_attached();
     hub.records().describe(description(settings, bodies));
-    LcmMbLink mb(hub);
-    LcmFeLink fe(hub, mb);
     ProgressLine line;
     Coupler coupler(settings, mb, settings.has_fe ? &fe : nullptr, &hub.records(),
                     {.before_window =

@@ -8,6 +8,7 @@
 #include "fe_node/generate/deck_export.h"
 #include "fe_node/generate/head_mesh.h"
 #include "fe_node/generate/ligaments.h"
+#include "fe_node/generate/membranes.h"
 #include "fe_node/generate/muscles.h"
 #include "fe_node/generate/part_ids.h"
 #include "fe_node/generate/spine.h"
@@ -97,6 +98,7 @@ class Assembly {
                        .levels_above_chin = resolution_.levels_above_chin,
                        .levels_below_chin = resolution_.levels_below_chin,
                        .section = [&](double z) { return section(z); }};
+    add_membranes(mesh, head, shape_);
     flesh_ = add_face_and_flesh(mesh, head, shape_, plan);
     skull_fit_ = head.skull_inner;
     skull_outer_ = head.skull_outer;
@@ -169,7 +171,7 @@ class Assembly {
     std::vector<int> skull{kDiploe, kFirstVertebra - 10};
     head_parts_ = brain;
     head_parts_.insert(head_parts_.end(), skull.begin(), skull.end());
-    head_parts_.insert(head_parts_.end(), {kCsf, kScalp, kFace});
+    head_parts_.insert(head_parts_.end(), {kCsf, kDura, kPia, kFalx, kTentorium, kScalp, kFace});
     neck_parts_ = {kFlesh};
     for (const PartSpec& p : draft().parts)
       if ((p.id >= kFirstVertebra && p.id < 4000) && p.id != kFirstVertebra - 10)

@@ -40,6 +40,16 @@ Vec3 HeadShape::spread(const Vec3& u) const {
           half_axis_z(u.x(), u.z() >= 0) * u.z()};
 }
 
+// The half-axis depends on the point sought: a few repetitions settle it.
+Vec3 HeadShape::on_ball(const Vec3& d) const {
+  Vec3 u = d.normalized();
+  for (int i = 0; i < 8; ++i)
+    u = Vec3(d.x() / (0.5 * measures_.length), d.y() / (0.5 * measures_.breadth),
+             d.z() / half_axis_z(u.x(), d.z() >= 0))
+            .normalized();
+  return u;
+}
+
 // Normal of (x/a)^2 + (y/b)^2 + (z/c(x/a))^2 = 1 by its gradient.
 HeadShape::Ray HeadShape::ray(const Vec3& u) const {
   const double a = 0.5 * measures_.length, b = 0.5 * measures_.breadth;

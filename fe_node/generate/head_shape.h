@@ -31,6 +31,8 @@ class HeadShape {
   /// Maps the unit ball onto the solid cranium, relative to the centre; the unit sphere becomes the
   /// skin.
   Vec3 spread(const Vec3& unit_ball_point) const;
+  /// The unit vector whose spread() points along d, from the centre.
+  Vec3 on_ball(const Vec3& d) const;
   /// Distances from the centre to the layer surfaces on the ray through spread(u), u a unit vector.
   /// Thicknesses are normal to the skin, so an oblique ray runs longer in a layer.
   struct Ray {

@@ -22,6 +22,17 @@ PartSpec brain(int id, const char* name, double shear_short, double shear_long, 
           .grade = grade};
 }
 
+PartSpec membrane(int id, const char* name, double density, double youngs, double thickness,
+                  const char* source) {
+  return {.id = id,
+          .name = name,
+          .density = density,
+          .law = mat::Elastic{.youngs = youngs, .poisson = 0.45},
+          .section = ShellSection{.thickness = thickness, .is_membrane = true},
+          .source = source,
+          .grade = Grade::Literature};
+}
+
 }  // namespace
 
 std::vector<PartSpec> head_tissues() {
@@ -65,6 +76,10 @@ std::vector<PartSpec> head_tissues() {
       brain(part::kCerebellumLeft, "cerebellum_left", 6e3, 1.2e3, brain_source, Grade::Source),
       brain(part::kCerebellumRight, "cerebellum_right", 6e3, 1.2e3, brain_source, Grade::Source),
       brain(part::kBrainstem, "brainstem", 12e3, 2.4e3, stem_source, Grade::Literature),
+      membrane(part::kDura, "dura", 1130, 31.5e6, 1.0e-3, "E 31.5 MPa, 1 mm, as in most models"),
+      membrane(part::kPia, "pia", 1000, 11.5e6, 0.1e-3, "arachnoid and pia as one, 0.1 mm"),
+      membrane(part::kFalx, "falx", 1130, 31.5e6, 1.0e-3, "as dura"),
+      membrane(part::kTentorium, "tentorium", 1130, 31.5e6, 1.0e-3, "as dura"),
       {.id = part::kFace,
        .name = "face",
        .density = 1250,

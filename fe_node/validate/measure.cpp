@@ -1,5 +1,7 @@
 #include "fe_node/validate/measure.h"
 
+#include <cmath>
+
 namespace crosswalk::fe::validate {
 
 const char* name(Confidence confidence) {
@@ -27,6 +29,8 @@ const char* name(Verdict verdict) {
   }
   return "context";
 }
+
+double logarithmic(double green_lagrange) { return 0.5 * std::log(1 + 2 * green_lagrange); }
 
 Verdict Measure::verdict() const {
   if (confidence == Confidence::Low) return Verdict::Context;

@@ -34,6 +34,9 @@ struct Measure {
   bool is_gate() const { return confidence == Confidence::ClosedForm; }
 };
 
+/// ln(stretch) of a Green-Lagrange strain; both measures rise together, so percentiles convert too.
+double logarithmic(double green_lagrange);
+
 struct Series {
   std::string label;
   std::vector<std::pair<double, double>> points;

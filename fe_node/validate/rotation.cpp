@@ -53,8 +53,6 @@ std::function<double(double)> up_and_down(double peak, double rise) {
   };
 }
 
-double logarithmic(double green_lagrange) { return 0.5 * std::log(1 + 2 * green_lagrange); }
-
 BrainResponse turn_skull(const generate::HeadNeck& whole, const Rotation& rotation,
                          const std::vector<Vec3>& points, const CaseContext& context,
                          const std::string& sub_folder) {

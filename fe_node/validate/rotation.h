@@ -39,9 +39,6 @@ BrainResponse turn_skull(const generate::HeadNeck& whole, const Rotation& rotati
                          const std::vector<Vec3>& points, const CaseContext& context,
                          const std::string& sub_folder);
 
-/// ln(stretch) of a Green-Lagrange strain; both measures rise together, so percentiles convert too.
-double logarithmic(double green_lagrange);
-
 /// DAMAGE of a rotation about one axis [gabler2019], by the exact solution of its oscillator for
 /// speeds that change linearly over short steps.
 double damage_of(const Rotation& rotation);

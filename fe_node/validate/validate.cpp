@@ -17,6 +17,13 @@ std::vector<Case> cases() {
       {"head", "sphere_pressure", "closed form: pressure in an accelerated ball", sphere_pressure},
       {"head", "hardy_rotation", "brain against skull in sagittal rotation", hardy_rotation},
       {"head", "rotation_pulses", "brain strain in rotations, against DAMAGE", rotation_pulses},
+      {"head", "nahum_37", "pressure in the brain under a frontal blow", nahum_37},
+      {"head", "skull_stiffness", "rigid hemisphere pressed into the skull", skull_stiffness},
+      {"head", "head_drops", "acceleration against drop height", head_drops},
+      {"head", "mesh_refinement", "one drop at growing fineness", mesh_refinement},
+      {"neck", "neck_ranges", "angles of each level at 1 N m", neck_ranges},
+      {"neck", "neck_lateral", "lateral sled of 7 g", neck_lateral},
+      {"neck", "neck_frontal", "frontal sled of 15 g", neck_frontal},
   };
 }
 

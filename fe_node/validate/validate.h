@@ -44,5 +44,12 @@ CaseResult sphere_torsion(const CaseContext& context);
 CaseResult sphere_pressure(const CaseContext& context);
 CaseResult hardy_rotation(const CaseContext& context);
 CaseResult rotation_pulses(const CaseContext& context);
+CaseResult nahum_37(const CaseContext& context);
+CaseResult head_drops(const CaseContext& context);
+CaseResult skull_stiffness(const CaseContext& context);
+CaseResult mesh_refinement(const CaseContext& context);
+CaseResult neck_ranges(const CaseContext& context);
+CaseResult neck_lateral(const CaseContext& context);
+CaseResult neck_frontal(const CaseContext& context);
 
 }  // namespace crosswalk::fe::validate

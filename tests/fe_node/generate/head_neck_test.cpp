@@ -103,6 +103,36 @@ TEST(HeadNeck, BrainHasTheVolumeAndSharesOfMen) {
   EXPECT_NEAR(stem / brain, 0.0225, 0.01);
 }
 
+double area_of(const HeadNeck& model, int part) {
+  double sum = 0;
+  const std::vector<Vec3>& x = model.draft.mesh.nodes;
+  for (const Quad& q : model.draft.mesh.quads)
+    if (q.part == part)
+      sum += 0.5 * (x[q.node[2]] - x[q.node[0]]).cross(x[q.node[3]] - x[q.node[1]]).norm();
+  return sum;
+}
+
+TEST(HeadNeck, MembranesLieWhereTheyBelong) {
+  const HeadNeck model = build_head_neck(untrimmed());
+  using namespace part;
+  for (const Quad& q : model.draft.mesh.quads)
+    if (q.part == kFalx)
+      for (const int n : q.node) EXPECT_NEAR(model.draft.mesh.nodes[n].y(), 0, 1e-9);
+  // Adult falx and tentorium: some 50 to 60 cm2 each; bounds wide for the cell size [E].
+  EXPECT_GT(area_of(model, kFalx), 35e-4);
+  EXPECT_LT(area_of(model, kFalx), 85e-4);
+  EXPECT_GT(area_of(model, kTentorium), 30e-4);
+  EXPECT_LT(area_of(model, kTentorium), 85e-4);
+  EXPECT_GT(area_of(model, kDura), area_of(model, kPia));
+  // Mirror images: the tentorium's centre lies in the mid-plane.
+  double moment = 0;
+  const std::vector<Vec3>& x = model.draft.mesh.nodes;
+  for (const Quad& q : model.draft.mesh.quads)
+    if (q.part == kTentorium)
+      for (const int n : q.node) moment += x[n].y();
+  EXPECT_NEAR(moment, 0, 1e-9);
+}
+
 TEST(HeadNeck, BothSidesAreMirrorImages) {
   const HeadNeck model = build_head_neck(HeadNeckSpec{});
   EXPECT_NEAR(volume_of(model, {part::kCerebrumLeft}) / volume_of(model, {part::kCerebrumRight}), 1,

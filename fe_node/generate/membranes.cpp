@@ -1,0 +1,118 @@
+#include "fe_node/generate/membranes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "fe_node/generate/part_ids.h"
+
+namespace crosswalk::fe::generate {
+
+namespace {
+
+constexpr double kFalxInnerShare = 0.55;    // of the brain's radius; the falx lies outside it [E]
+constexpr double kFalxFrontZ = 0.035;       // m in F, lowest point in front (crista galli) [E]
+constexpr double kFalxBackZ = 0.024;        // m in F, where it meets the tentorium [E]
+constexpr double kNotchHalfWidth = 0.028;   // m, opening of the tentorium for the brainstem [E]
+constexpr double kNotchBack = -0.028;       // m, x in F of its back [E]
+constexpr double kTentoriumFront = -0.016;  // m, x in F of its front edge beside the notch [E]
+
+constexpr std::array<std::array<int, 4>, 6> kFaces = {
+    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+
+/// Which of two regions of the cranium a brick belongs to, or neither.
+enum class Side { None, One, Other };
+
+/// Quads on the faces where a brick of side One meets one of side Other, oriented out of One.
+void add_sheet(MeshDraft& draft, const std::vector<Side>& side, int part,
+               const std::function<bool(const Vec3&)>& is_wanted) {
+  std::map<std::array<int, 4>, std::pair<Side, std::array<int, 4>>> open;
+  for (std::size_t h = 0; h < side.size(); ++h) {
+    if (side[h] == Side::None) continue;
+    for (const auto& face : kFaces) {
+      std::array<int, 4> node{};
+      for (int c = 0; c < 4; ++c) node[c] = draft.hexes[h].node[face[c]];
+      std::array<int, 4> key = node;
+      std::sort(key.begin(), key.end());
+      const auto [found, is_new] = open.try_emplace(key, side[h], node);
+      if (is_new || found->second.first == side[h]) continue;
+      Vec3 centre = Vec3::Zero();
+      for (const int id : node) centre += 0.25 * draft.nodes[id];
+      if (!is_wanted(centre)) continue;
+      draft.quads.push_back({side[h] == Side::One ? node : found->second.second, part});
+    }
+  }
+}
+
+double height_of(const MeshDraft& draft, const Hex& hex, int axis) {
+  double sum = 0;
+  for (const int id : hex.node) sum += draft.nodes[id][axis] / 8;
+  return sum;
+}
+
+bool is_cerebrum(int part) { return part == part::kCerebrumLeft || part == part::kCerebrumRight; }
+bool is_cerebellum(int part) {
+  return part == part::kCerebellumLeft || part == part::kCerebellumRight;
+}
+
+/// The part of the brain under each brick; CSF bricks continue the brain brick below them.
+std::vector<int> brain_parts(const MeshDraft& draft) {
+  std::map<std::array<int, 4>, int> under;  // sorted nodes of a brick's outer face
+  std::vector<int> parts(draft.hexes.size(), -1);
+  const auto outer = [](const Hex& hex, int first) {
+    std::array<int, 4> key{hex.node[first], hex.node[first + 1], hex.node[first + 2],
+                           hex.node[first + 3]};
+    std::sort(key.begin(), key.end());
+    return key;
+  };
+  for (std::size_t h = 0; h < draft.hexes.size(); ++h) {
+    const Hex& hex = draft.hexes[h];
+    if (hex.part == part::kCsf) {
+      const auto found = under.find(outer(hex, 0));
+      if (found != under.end()) parts[h] = found->second;
+    } else if (is_cerebrum(hex.part) || is_cerebellum(hex.part) || hex.part == part::kBrainstem) {
+      parts[h] = hex.part;
+    }
+    if (parts[h] >= 0) under[outer(hex, 4)] = parts[h];
+  }
+  return parts;
+}
+
+void add_surface(MeshDraft& draft, const CubedSphere& sphere, const std::vector<int>& node,
+                 int part) {
+  for (const auto& quad : sphere.quads())
+    draft.quads.push_back({{node[quad[0]], node[quad[1]], node[quad[2]], node[quad[3]]}, part});
+}
+
+}  // namespace
+
+void add_membranes(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape) {
+  add_surface(draft, head.sphere, head.brain_surface, part::kPia);
+  add_surface(draft, head.sphere, head.skull_inner, part::kDura);
+  const std::vector<int> parts = brain_parts(draft);
+
+  std::vector<Side> halves(parts.size(), Side::None), floors(parts.size(), Side::None);
+  for (std::size_t h = 0; h < parts.size(); ++h) {
+    if (is_cerebrum(parts[h])) {
+      halves[h] = height_of(draft, draft.hexes[h], 1) > 0 ? Side::One : Side::Other;
+      floors[h] = Side::Other;
+    } else if (is_cerebellum(parts[h])) {
+      floors[h] = Side::One;
+    }
+  }
+  const Vec3 centre = shape.centre(), scale = shape.scale();
+  add_sheet(draft, halves, part::kFalx, [&](const Vec3& p) {
+    const Vec3 q = p.cwiseQuotient(scale), d = p - centre;
+    if (q.z() < (q.x() > 0 ? kFalxFrontZ : kFalxBackZ)) return false;
+    return d.norm() > kFalxInnerShare * shape.ray(shape.on_ball(d)).brain;
+  });
+  add_sheet(draft, floors, part::kTentorium, [&](const Vec3& p) {
+    const Vec3 q = p.cwiseQuotient(scale);
+    if (std::abs(q.y()) < kNotchHalfWidth) return q.x() < kNotchBack;
+    return q.x() < kTentoriumFront;
+  });
+}
+
+}  // namespace crosswalk::fe::generate

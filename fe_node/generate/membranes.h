@@ -1,0 +1,16 @@
+// Membranes of the cranium on faces of its bricks, with shared nodes: dura under the skull, pia on
+// the brain, falx between the hemispheres, tentorium over the cerebellum. Frame F (head_shape.h).
+//
+// The falx lies in the mid-plane in the outer 45 % of the brain and reaches through the CSF to the
+// skull; its lower edge is free above the callosum. The tentorium follows the brick faces between
+// cerebrum and cerebellum and leaves a notch for the brainstem. Outlines are estimates [E].
+#pragma once
+
+#include "fe_node/generate/head_mesh.h"
+
+namespace crosswalk::fe::generate {
+
+/// Adds the quads to a draft that holds the cranium and nothing else.
+void add_membranes(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape);
+
+}  // namespace crosswalk::fe::generate

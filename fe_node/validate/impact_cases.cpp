@@ -64,13 +64,13 @@ struct Head {
 /// interval.
 class HeadSensor {
  public:
-  HeadSensor(const DeckRun& run, double interval)
+  explicit HeadSensor(const DeckRun& run)
       : motion_(run.model(),
                 run.model().mesh.node_sets[run.model().mesh.find_node_set("skull_fit")].nodes,
-                inertia_of_parts(run.model(),
-                                 run.built().part_sets[run.built().part_set("head")].second)
-                    .com),
-        interval_(interval),
+                {Quat::Identity(),
+                 inertia_of_parts(run.model(),
+                                  run.built().part_sets[run.built().part_set("head")].second)
+                     .com}),
         before_(motion_.twist(run.state())) {}
 
   void sample(const State& state) {
@@ -100,7 +100,7 @@ class HeadSensor {
 
  private:
   HeadMotion motion_;
-  double interval_, last_ = 0;
+  double last_ = 0;
   Twist before_;
 };
 
@@ -178,7 +178,7 @@ CaseResult nahum_37(const CaseContext& context) {
   }
   deck.end_at(0.010);
   DeckRun run(deck.deck, context.folder, context.threads, kAddedMass);
-  HeadSensor sensor(run, kSampling);
+  HeadSensor sensor(run);
   struct Gauge {
     const char* name;
     Vec3 direction;
@@ -257,7 +257,7 @@ DropOutcome drop(const Head& head, const Drop& d, const CaseContext& context, in
   deck.end_at(kEnd);
   DeckRun run(deck.deck, context.folder / fmt::format("drop_{}", number), context.threads,
               kAddedMass);
-  DropOutcome out{HeadSensor(run, kSampling), 0, 0, 0, ""};
+  DropOutcome out{HeadSensor(run), 0, 0, 0, ""};
   const TissueMetrics metrics(
       run.model(), {{"brain", run.built().part_sets[run.built().part_set("brain")].second}});
   StrainPeaks peaks = metrics.no_peaks();

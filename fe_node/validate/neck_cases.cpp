@@ -120,7 +120,9 @@ std::vector<double> angles_at(const generate::ModelDraft& draft, int axis, doubl
   bool is_reached = false;
   run.run(kLongest, kWindow, [&](const State& state) {
     if (is_reached || state.time == 0) return;
-    const double turn = log_rotation(state.bodies[bodies.front()].X_WB.q)[axis] * sense;
+    // Of the prescribed speed: the work is the moment times this angle, however the head tilts.
+    const double turn = kRate * (state.time < kRise ? state.time * state.time / (2 * kRise)
+                                                    : state.time - 0.5 * kRise);
     const Energies& e = state.energies;
     const double useful = e.external_work - e.damping - e.kinetic;
     const double now = (useful - work) / std::max(turn - turned, 1e-9);
@@ -359,7 +361,8 @@ CaseResult neck_frontal(const CaseContext& context) {
                     {},
                     {path_plot(path, "Frontal 15 g", 0, 1)},
                     {path.note}};
-  const auto [x, t_x] = extreme(path.time, path.centre, 0);
+  double x = 0;  // forwards only: past a right angle the head swings back under the neck
+  for (const Vec3& d : path.centre) x = std::max(x, d.x());
   const auto [z, t_z] = extreme(path.time, path.centre, 2);
   const auto [flexion, t_f] = extreme(path.time, path.turned, 1);
   const double peak =

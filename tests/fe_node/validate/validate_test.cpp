@@ -15,8 +15,10 @@ namespace crosswalk::fe::validate {
 namespace {
 
 TEST(Measure, LowConfidenceDecidesNothing) {
-  Measure m{"force", "kN", 5, 10, 8, 12};
-  m.confidence = Confidence::Low;
+  Measure m;
+  m.ours = 5;
+  m.low = 8;
+  m.high = 12;
   EXPECT_EQ(m.verdict(), Verdict::Context);
   m.confidence = Confidence::High;
   EXPECT_EQ(m.verdict(), Verdict::NotMet);
@@ -51,9 +53,10 @@ TEST(Rotation, EndsAtItsSpeed) {
 
 TEST(Rotation, DamageOfASlowTurnIsTheStaticLag) {
   // Constant acceleration alpha: lag alpha / k once at rest; 23493 1/s2 about y.
-  const Rotation steady{
-      .axis = 1, .pivot = {}, .speed = [](double t) { return 500 * t * std::min(1.0, t / 0.5); },
-      .end = 1.0};
+  const Rotation steady{.axis = 1,
+                        .pivot = {},
+                        .speed = [](double t) { return 500 * t * std::min(1.0, t / 0.5); },
+                        .end = 1.0};
   EXPECT_NEAR(damage_of(steady), 2.9903 * 1000 / 23493, 0.1 * 2.9903 * 1000 / 23493);
 }
 
@@ -68,8 +71,8 @@ class HeadPieces : public testing::Test {
 TEST_F(HeadPieces, HeadAloneKeepsTheMassOfTheHead) {
   const generate::ModelDraft head = whole_head(whole());
   const std::vector<int> parts = parts_of_set(head, "head");
-  EXPECT_NEAR(generate::inertia_of(head, parts, true).mass,
-              whole().masses.row("head").inertia.mass, 1e-9);
+  EXPECT_NEAR(generate::inertia_of(head, parts, true).mass, whole().masses.row("head").inertia.mass,
+              1e-9);
   for (const generate::Hex& hex : head.mesh.hexes)
     for (int n : hex.node) ASSERT_LT(n, static_cast<int>(head.mesh.nodes.size()));
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "common/error.h"
 #include "fe_node/deck/deck_writer.h"
@@ -37,7 +38,8 @@ Foreign write_foreign(const FeConfig& generated) {
   const generate::HeadNeck made = generate::build_head_neck(spec);
   const Deck deck = generate::to_deck(made.draft, spec.units);
   Foreign foreign;
-  foreign.file = std::filesystem::path(testing::TempDir()) / "foreign_head.k";
+  foreign.file = std::filesystem::path(testing::TempDir()) /
+                 fmt::format("foreign_head_{}.k", getpid());  // tests run side by side
   write_deck(foreign.file, foreign_deck(deck));
   foreign.mapping = fmt::format(
       "{}[head_neck]\ndeck = \"{}\"\nunits = \"mm-kg-ms\"\njoint_mm = {}\n"

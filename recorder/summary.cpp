@@ -127,9 +127,8 @@ std::string outcome_of(const RunRecord& record) {
 void add_statements(Summary& s, const std::optional<ReferenceData>& reference) {
   if (!s.tissue.empty()) {
     s.statements.push_back(
-        "The head model has not been compared with head experiments: brain strains and what "
-        "follows "
-        "from them (MPS, CSDM) must not be used.");
+        "Brain strains are those of a head model that misses several head experiments "
+        "(docs/validation.md): MPS, CSDM and what follows from them must not be used.");
   }
   if (s.manifest.has_head_alone()) {
     s.statements.push_back(

@@ -99,7 +99,7 @@ TEST_F(ResumedRun, SurvivesTheDeathOfEachProcessInTurn) {
 }
 
 TEST_F(ResumedRun, BeforeTheFirstCheckpointStartsFromTheBeginning) {
-  const std::vector<std::string> options = {"--mode", "multibody", "--until-ms", "5"};
+  const std::vector<std::string> options = {"--mode", "multibody", "--until-ms", "15"};
   complete("whole", options);
   Launched first = run("a", options);
   ASSERT_TRUE(wait_for(kLong, [&] { return first.has_said(" elapsed"); })) << first.output();

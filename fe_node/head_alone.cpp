@@ -21,12 +21,6 @@ Ids parts_of_head(const Deck& deck) {
   return parts;
 }
 
-bool is_rigid(const Deck& deck, const Part& part) {
-  return std::any_of(deck.materials.begin(), deck.materials.end(), [&part](const Material& m) {
-    return m.id == part.material && std::holds_alternative<mat::Rigid>(m.law);
-  });
-}
-
 /// Erases elements of other parts and gathers the nodes of the rest.
 template <class Element>
 void keep_elements(std::vector<Element>& elements, const Ids& parts, Ids& nodes) {

@@ -36,13 +36,6 @@ class Adapter {
     }
   }
 
-  bool is_rigid(const Part& part) const {
-    return std::any_of(
-        deck_.materials.begin(), deck_.materials.end(), [&part](const Material& material) {
-          return material.id == part.material && std::holds_alternative<mat::Rigid>(material.law);
-        });
-  }
-
   /// A rigid part by title or number, or the nodes of a set made rigid.
   void make_block(const InterfaceSpec& interface) {
     const std::string title = block_title(interface.body);
@@ -67,7 +60,7 @@ class Adapter {
   }
 
   void require_rigid(const Part& part, const std::string& what) {
-    if (is_rigid(part)) return;
+    if (is_rigid(deck_, part)) return;
     problems_.add(Problem{deck_.place(part.source),
                           what,
                           "a part of *MAT_RIGID, or a node set",
@@ -132,6 +125,12 @@ class Adapter {
 };
 
 }  // namespace
+
+bool is_rigid(const Deck& deck, const Part& part) {
+  return std::any_of(deck.materials.begin(), deck.materials.end(), [&part](const Material& m) {
+    return m.id == part.material && std::holds_alternative<mat::Rigid>(m.law);
+  });
+}
 
 std::string block_title(const std::string& body) { return "block_" + body; }
 

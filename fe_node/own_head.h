@@ -18,6 +18,9 @@ inline constexpr const char* kSkullNodes = "skull_fit";
 /// Title of the rigid part that follows an attached body.
 std::string block_title(const std::string& body);
 
+/// True for a part of *MAT_RIGID.
+bool is_rigid(const Deck& deck, const Part& part);
+
 /// Reads and adapts the deck of the scenario.
 Deck read_own_deck(const FeConfig& config);
 

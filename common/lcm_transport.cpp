@@ -2,12 +2,15 @@
 
 #include <deque>
 #include <exception>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <lcm/lcm-cpp.hpp>
 
+#include "common/datagram_filter.h"
 #include "common/error.h"
+#include "common/log.h"
 
 namespace crosswalk {
 
@@ -29,17 +32,29 @@ struct Subscriber {
   }
 };
 
+/// With a time to live of 0, LCM's default as well, multicast does not leave the machine.
+Origin origin_of(const std::string& url) {
+  const std::size_t ttl = url.find("ttl=");
+  const bool is_zero =
+      ttl == std::string::npos || url.substr(ttl, url.find('&', ttl) - ttl) == "ttl=0";
+  return is_zero ? Origin::ThisMachine : Origin::Anywhere;
+}
+
 class LcmTransport : public Transport {
  public:
-  explicit LcmTransport(const std::string& url) : lcm_(url) {}
+  /// `filter`: where messages may come from; nothing: no filter at all.
+  LcmTransport(const std::string& url, std::optional<Origin> filter) : lcm_(url), filter_(filter) {}
   bool good() { return lcm_.good(); }
 
   bool subscribe(const std::string& pattern, MessageHandler handler) override {
+    const std::set<int> before = patterns_.empty() ? udp_sockets() : std::set<int>{};
     subscribers_.push_back(Subscriber{std::move(handler), &failure_});
     lcm::Subscription* subscription =
         lcm_.subscribe(pattern, &Subscriber::on_message, &subscribers_.back());
     if (subscription == nullptr) return false;
     subscription->setQueueCapacity(0);  // LCM drops silently beyond 30 otherwise
+    patterns_.push_back(pattern);
+    if (filter_) renew_filter(before);
     return true;
   }
 
@@ -54,15 +69,27 @@ class LcmTransport : public Transport {
   }
 
  private:
+  /// LCM opens its receiving socket with the first subscription and shows it to nobody: it is the
+  /// one that was not there before.
+  void renew_filter(const std::set<int>& before) {
+    if (patterns_.size() == 1) {
+      for (const int number : udp_sockets())
+        if (!before.contains(number)) receiver_ = number;
+    }
+    if (receiver_ < 0 || !let_through_only(receiver_, patterns_, *filter_))
+      log_warning("no filter in front of LCM's socket: forged fragments are not kept out");
+  }
+
   lcm::LCM lcm_;
+  std::optional<Origin> filter_;
+  int receiver_ = -1;
+  std::vector<std::string> patterns_;
   std::deque<Subscriber> subscribers_;  // stable addresses
   std::exception_ptr failure_;
 };
 
-}  // namespace
-
-std::shared_ptr<Transport> lcm_transport(const std::string& url) {
-  auto transport = std::make_shared<LcmTransport>(url);
+std::shared_ptr<Transport> started(const std::string& url, std::optional<Origin> filter) {
+  auto transport = std::make_shared<LcmTransport>(url, filter);
   if (!transport->good()) {
     throw ProtocolError(
         ExitCode::NoTransport,
@@ -72,6 +99,16 @@ std::shared_ptr<Transport> lcm_transport(const std::string& url) {
             url));
   }
   return transport;
+}
+
+}  // namespace
+
+std::shared_ptr<Transport> lcm_transport(const std::string& url) {
+  return started(url, url.starts_with("udpm://") ? std::optional(origin_of(url)) : std::nullopt);
+}
+
+std::shared_ptr<Transport> plain_lcm_transport(const std::string& url) {
+  return started(url, std::nullopt);
 }
 
 }  // namespace crosswalk

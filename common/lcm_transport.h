@@ -10,5 +10,7 @@ namespace crosswalk {
 
 /// Throws ProtocolError{NoTransport} with the cure when LCM cannot start.
 std::shared_ptr<Transport> lcm_transport(const std::string& url);
+/// LCM as it comes, without the filter in front of its socket: what benchmarks compare with.
+std::shared_ptr<Transport> plain_lcm_transport(const std::string& url);
 
 }  // namespace crosswalk

@@ -131,7 +131,7 @@ ExitCode serve_echo(const BenchRequest& request) {
   const bool is_mb = request.part == "echo_mb";
   const int size = is_mb ? msg::mb_done{}.getEncodedSize() : msg::fe_done{}.getEncodedSize();
   const std::vector<std::byte> answer(static_cast<std::size_t>(size));
-  const auto transport = lcm_transport(request.url);
+  const auto transport = plain_lcm_transport(request.url);
   transport->subscribe(is_mb ? "TO_MB" : "TO_FE",
                        [&](const std::string&, std::span<const std::byte>, std::int64_t) {
                          transport->publish(is_mb ? "FROM_MB" : "FROM_FE", answer);
@@ -142,7 +142,7 @@ ExitCode serve_echo(const BenchRequest& request) {
 
 /// Times of the bare exchange of `n` windows, s.
 std::vector<double> bare_exchanges(const std::string& url, int n) {
-  const auto transport = lcm_transport(url);
+  const auto transport = plain_lcm_transport(url);
   int answers = 0;
   transport->subscribe(
       "FROM_.*", [&](const std::string&, std::span<const std::byte>, std::int64_t) { ++answers; });

@@ -106,6 +106,10 @@ void NodeSession::handle_control(const msg::run_control& control) {
     leave(ExitCode::NodeFailed, "the coupler ended the run: " + control.text);
   } else if (command == Command::Stop) {
     leave(ExitCode::Done);
+  } else if (command == Command::Checkpoint && control.window <= checkpoint_) {
+    // Written already. Said again, for the answer may have been lost; never written again, for this
+    // may be an old message and the state a later one by now.
+    bus_.publish(status(), -1);
   } else {
     if (command == Command::Finish && bus_.role() != Role::Recorder) {
       records_.flush();
@@ -142,12 +146,10 @@ msg::node_status NodeSession::status() const {
 }
 
 void NodeSession::write_checkpoint(CheckpointPart part) {
-  if (checkpoint_ != part.window) {
-    records_.flush();
-    part.n_records = records_.count();
-    write_part(checkpoints_, bus_.role(), part);
-    checkpoint_ = part.window;
-  }
+  records_.flush();
+  part.n_records = records_.count();
+  write_part(checkpoints_, bus_.role(), part);
+  checkpoint_ = part.window;
   bus_.publish(status(), -1);
 }
 

@@ -127,9 +127,9 @@ void MbSession::take_masses(const msg::boundary_mass& m) {
     participant_.attach(bodies_);
     continue_run(participant_, ledger_, records(), part_to_continue_from());
     has_masses_ = true;
+    set_state(NodeState::Waiting, -1);
   }
   heard_coupler();
-  set_state(NodeState::Waiting, -1);
   bus_.publish(mass_message(bodies_), 0);
 }
 
@@ -208,9 +208,9 @@ void FeSession::take_motion(const msg::boundary_motion& m) {
     records().describe(participant_.description());
     continue_run(participant_, ledger_, records(), part_to_continue_from());
     is_placed_ = true;
+    set_state(NodeState::Waiting, -1);
   }
   heard_coupler();
-  set_state(NodeState::Waiting, -1);
   bus_.publish(mass_message(bodies_), 0);
 }
 

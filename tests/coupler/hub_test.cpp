@@ -2,8 +2,12 @@
 // in-memory bus.
 #include "coupler/hub.h"
 
+#include <filesystem>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "acking_recorder.h"
 #include "common/participant.h"
@@ -87,6 +91,40 @@ TEST(Hub, WholeRunOverTheBusEqualsDirectCalls) {
   EXPECT_EQ(mb.now().x, run.mb.now().x);
   EXPECT_EQ(mb.now().v, run.mb.now().v);
   EXPECT_EQ(fe.now().x, run.fe.now().x);
+}
+
+TEST(Hub, OldCheckpointCommandsDoNotTouchTheCheckpoints) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("cw_old_checkpoint_{}", getpid());
+  const auto transport = memory_transport();
+  Bus coupler(transport, "test", Role::Coupler), node(transport, "test", Role::Mb);
+  toy::Mb mb({.mass = 15, .push = 1000});
+  MbSession session(node, mb, kMbIdentity, {}, folder);
+  coupler.publish(msg::run_manifest{}, 0);
+  const auto ask = [&](std::int64_t window) {
+    msg::run_control control{};
+    control.command = static_cast<int>(Command::Checkpoint);
+    control.window = window;
+    coupler.publish(control, 0);
+    node.handle_pending();
+  };
+  const auto advance = [&] {
+    toy::NoRecords sink;
+    mb.advance({.id = {0, 20000}, .carry = {Vec6::Zero()}, .bias = {Vec6::Zero()}}, sink);
+  };
+  ask(100);
+  const std::vector<std::byte> first = read_part(folder, Role::Mb, 100).state;
+  advance();
+  ask(100);
+  ask(200);
+  const std::vector<std::byte> second = read_part(folder, Role::Mb, 200).state;
+  EXPECT_NE(first, second);
+  advance();
+  for (const std::int64_t window : {100, 200, 50}) ask(window);
+  EXPECT_EQ(read_part(folder, Role::Mb, 100).state, first);
+  EXPECT_EQ(read_part(folder, Role::Mb, 200).state, second);
+  EXPECT_THROW(read_part(folder, Role::Mb, 50), std::exception);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Hub, NamesTheRolesThatNeverJoin) {

@@ -1,5 +1,6 @@
 #include "launcher/network.h"
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -15,6 +16,7 @@
 #include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "common/error.h"
@@ -98,30 +100,54 @@ std::string map_user(uid_t user, gid_t group) {
 
 }  // namespace
 
-std::string multicast_defect() {
+namespace {
+
+/// The token of our own datagram and the interface it came back by; 0 when it is not ours.
+unsigned interface_of_own(int receiver, int token) {
+  int answer = 0;
+  iovec data{&answer, sizeof answer};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(in_pktinfo))> control{};
+  msghdr message{};
+  message.msg_iov = &data;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  if (recvmsg(receiver, &message, 0) != sizeof answer || answer != token) return 0;
+  const cmsghdr* info = CMSG_FIRSTHDR(&message);
+  if (info == nullptr || info->cmsg_type != IP_PKTINFO) return 0;
+  in_pktinfo where{};
+  std::memcpy(&where, CMSG_DATA(info), sizeof where);
+  return static_cast<unsigned>(where.ipi_ifindex);
+}
+
+}  // namespace
+
+Multicast probe_multicast() {
   const Socket receiver(SOCK_DGRAM), sender(SOCK_DGRAM);
   sockaddr_in any = address_of(htonl(INADDR_ANY), 0);
-  if (bind(receiver.number(), generic(any), sizeof any) != 0) return failure("bind");
+  if (bind(receiver.number(), generic(any), sizeof any) != 0) return {failure("bind"), ""};
   socklen_t size = sizeof any;
   getsockname(receiver.number(), generic(any), &size);
+  const int on = 1;
+  setsockopt(receiver.number(), IPPROTO_IP, IP_PKTINFO, &on, sizeof on);
   ip_mreq membership{};
   membership.imr_multiaddr.s_addr = inet_addr(kGroup);
   if (setsockopt(receiver.number(), IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership,
                  sizeof membership) != 0)
-    return failure("joining the multicast group");
+    return {failure("joining the multicast group"), ""};
   const unsigned char ttl = 0, loop = 1;
   setsockopt(sender.number(), IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof ttl);
   setsockopt(sender.number(), IPPROTO_IP, IP_MULTICAST_LOOP, &loop, sizeof loop);
   sockaddr_in group = address_of(inet_addr(kGroup), ntohs(any.sin_port));
   const int token = getpid();
   if (sendto(sender.number(), &token, sizeof token, 0, generic(group), sizeof group) < 0)
-    return failure("sending to the multicast group");
+    return {failure("sending to the multicast group"), ""};
   pollfd wait{receiver.number(), POLLIN, 0};
-  int answer = 0;
+  std::array<char, IF_NAMESIZE> name{};
   while (poll(&wait, 1, kProbeMs) > 0)
-    if (recv(receiver.number(), &answer, sizeof answer, 0) == sizeof answer && answer == token)
-      return {};
-  return "multicast datagrams do not come back";
+    if (const unsigned index = interface_of_own(receiver.number(), token); index != 0)
+      return {"", if_indextoname(index, name.data()) != nullptr ? name.data() : "an interface"};
+  return {"multicast datagrams do not come back", ""};
 }
 
 bool is_udp_port_free(int port) {
@@ -140,10 +166,20 @@ std::string enter_private_network() {
   const Socket control(SOCK_DGRAM);
   if (std::string defect = raise_loopback(control.number()); !defect.empty()) return defect;
   if (std::string defect = add_multicast_route(control.number()); !defect.empty()) return defect;
-  return multicast_defect();
+  return probe_multicast().defect;
 }
 
 namespace {
+
+/// Tries in a child first: a namespace that is half set up could not be left again.
+std::string private_network_or_obstacle() {
+  const pid_t child = fork();
+  if (child == 0) _exit(enter_private_network().empty() ? 0 : 1);
+  int status = 0;
+  if (child > 0 && waitpid(child, &status, 0) == child && status == 0)
+    return enter_private_network();
+  return "the kernel does not allow it to this account";
+}
 
 /// Where the port's digits stand in a udpm URL; {npos, 0} when there are none.
 std::pair<std::size_t, std::size_t> port_digits(const std::string& url) {
@@ -171,22 +207,37 @@ std::string url_with_port(const std::string& url, int port) {
   return std::string(url).replace(begin, length, fmt::format("{}", port));
 }
 
-RunNetwork open_network(const std::string& url, bool is_isolated, const std::string& run_id) {
+RunNetwork open_network(const std::string& url, Privacy privacy, const std::string& run_id) {
   RunNetwork network{url.empty() ? default_lcm_url(run_id) : url};
-  const bool is_multicast = network.url.starts_with("udpm://");
-  if (!is_multicast && !is_isolated) return network;
-  const std::string defect = is_isolated ? "" : multicast_defect();
-  if (is_isolated || !defect.empty()) {
-    const std::string obstacle = enter_private_network();
-    if (!obstacle.empty())
+  const bool is_demanded = privacy == Privacy::Demanded;
+  if (!network.url.starts_with("udpm://") && !is_demanded) return network;
+  const Multicast here = probe_multicast();
+  const bool is_waived = privacy == Privacy::Waived || !url.empty();
+  const bool is_good_enough = is_waived ? here.defect.empty() : here.stays_here();
+  if (is_demanded || !is_good_enough) {
+    const std::string obstacle = private_network_or_obstacle();
+    if (!obstacle.empty() && (is_demanded || !here.defect.empty()))
       throw ProtocolError(
           ExitCode::NoTransport,
-          fmt::format("no UDP multicast on this machine ({}) and no private network ({});\nas "
-                      "root:  ip link set lo up && ip route add 224.0.0.0/4 dev lo",
-                      defect.empty() ? "not asked" : defect, obstacle));
-    fmt::print("{}: this run uses a private network; `crosswalk spy` looks into it\n",
-               is_isolated ? "isolated" : "no multicast route here (" + defect + ")");
-    network.is_private = true;
+          fmt::format(
+              "no private network ({}){};\nas root:  ip link set lo up && ip route add "
+              "224.0.0.0/4 dev lo",
+              obstacle,
+              here.defect.empty()
+                  ? ""
+                  : fmt::format(" and no UDP multicast on this machine ({})", here.defect)));
+    network.is_private = obstacle.empty();
+    const std::string reason = is_demanded             ? "as asked"
+                               : here.defect.empty() ? "multicast here uses " + here.interface
+                                                     : "no multicast here: " + here.defect;
+    if (network.is_private) {
+      fmt::print("messages in a private network ({}); `crosswalk spy` looks into it\n", reason);
+    } else {
+      fmt::print(
+          "no private network ({}): messages use the multicast of this machine, where other "
+          "accounts of it could send as well\n",
+          obstacle);
+    }
   }
   const int asked = port_of(network.url);
   for (int port = asked; port != 0 && port < asked + kPortsTried; ++port) {

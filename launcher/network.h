@@ -1,17 +1,23 @@
-// Does UDP multicast work here, is a port free, and a private network where it does not.
+// Where the messages of a run on one machine go: a network that nobody else reaches.
 //
 // LCM needs a route for 224.0.0.0/4; without one it fails, or waits 10 s for a self-test. So we
-// probe with a socket of our own first. Where the probe fails, or on request, the launcher moves
-// into a network namespace of its own with loopback and that route; the processes it starts inherit
-// it.
+// probe with a socket of our own first, and see through which interface multicast goes. Through lo
+// it stays among the processes here; through a real interface, or when the probe fails, or on
+// request, the launcher moves into a network namespace of its own with loopback and that route; the
+// processes it starts inherit it.
 #pragma once
 
 #include <string>
 
 namespace crosswalk {
 
-/// Empty when a multicast datagram comes back to this machine; else why not.
-std::string multicast_defect();
+/// How a multicast datagram fared that was sent with a time to live of 0.
+struct Multicast {
+  std::string defect;     ///< why it did not come back; empty when it did
+  std::string interface;  ///< the one it went through
+  bool stays_here() const { return defect.empty() && interface == "lo"; }
+};
+Multicast probe_multicast();
 /// True when no other process listens on the UDP port.
 bool is_udp_port_free(int port);
 /// Moves this process into a private network namespace (and, unless root, a user namespace) with
@@ -23,10 +29,15 @@ struct RunNetwork {
   std::string url;
   bool is_private = false;  ///< this process and its children are alone in it
 };
-/// A URL on which traffic works: multicast on this machine, else a private network. `url` empty:
-/// the one of the run id, on the next free port. Says on stdout what is not as asked; throws
-/// ProtocolError{NoTransport} with the cure when there is neither.
-RunNetwork open_network(const std::string& url, bool is_isolated, const std::string& run_id);
+enum class Privacy {
+  Default,   ///< a private network unless multicast stays among the processes here
+  Demanded,  ///< a private network in any case
+  Waived     ///< the host's multicast where it works: somebody else shall listen
+};
+/// A URL on which traffic works. `url` empty: the one of the run id, on the next free port; one
+/// that is given waives privacy. Says on stdout what was chosen and is not obvious; throws
+/// ProtocolError{NoTransport} with the cure when nothing works.
+RunNetwork open_network(const std::string& url, Privacy privacy, const std::string& run_id);
 
 /// "udpm://239.255.76.67:PORT?..." with another port.
 std::string url_with_port(const std::string& url, int port);

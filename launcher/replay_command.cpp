@@ -80,8 +80,11 @@ ProcessSpec player_process(const fs::path& log, double speed, const std::string&
 ExitCode replay_command(const ReplayRequest& request) {
   const fs::path log = log_of(request.source);
   const std::string run_id = run_id_of(request.source);
-  const RunNetwork network = open_network(request.url, request.is_isolated,
-                                          run_id.empty() ? log.filename().string() : run_id);
+  const Privacy privacy = request.is_isolated   ? Privacy::Demanded
+                          : request.to == "bus" ? Privacy::Waived
+                                                : Privacy::Default;
+  const RunNetwork network =
+      open_network(request.url, privacy, run_id.empty() ? log.filename().string() : run_id);
   const fs::path out = request.out.empty() ? request.source / "replay" : request.out;
   std::optional<Process> listener;
   if (request.to == "spy") {

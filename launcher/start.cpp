@@ -49,7 +49,7 @@ void require_way_to_hosts(const PreparedRun& run, const RunRequest& request) {
                             fmt::format("some on {}", fmt::join(hosts, ", ")),
                             {}});
   const bool is_multicast = planned_url(run, request).starts_with("udpm://");
-  if (const std::string defect = is_multicast ? multicast_defect() : ""; !defect.empty())
+  if (const std::string defect = is_multicast ? probe_multicast().defect : ""; !defect.empty())
     throw ProtocolError(
         ExitCode::NoTransport,
         fmt::format("no UDP multicast on this machine ({}): give 224.0.0.0/4 a route through the "
@@ -183,7 +183,8 @@ ExitCode start_run(const PreparedRun& run, const RunRequest& request) {
   if (request.is_watched) live_page.emplace(run.directory);
   require_way_to_hosts(run, request);
   const RunNetwork network =
-      open_network(planned_url(run, request), request.is_isolated, run.run_id);
+      open_network(planned_url(run, request),
+                   request.is_isolated ? Privacy::Demanded : Privacy::Default, run.run_id);
   const Tunnel tunnel(run, request);
   fmt::print("{} ({}{}), {:g} ms from first contact, in {}\n", scenario.name,
              name_of(scenario.mode),

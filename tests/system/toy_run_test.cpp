@@ -1,7 +1,9 @@
 // The launcher and the coupler with small stand-ins for the other programs, as real processes.
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -168,6 +170,79 @@ TEST_F(ToyRun, PrivateNetworkOnRequest) {
   }
   EXPECT_TRUE(status->is_success()) << run.output();
   EXPECT_THAT(run.output(), HasSubstr("private network"));
+}
+
+/// A toy run on a machine of its own whose multicast leaves through a real interface, after
+/// `preparation` there; empty where namespaces are not allowed.
+class OnAMachineWithNetwork : public ToyRun {
+ protected:
+  std::optional<Launched> start_there(const std::string& preparation,
+                                      const std::vector<std::string>& options) {
+    const std::string script =
+        "ip link set lo up && ip link add real0 type veth peer name real1 && "
+        "ip addr add 10.1.1.1/24 dev real0 && ip link set real0 up && ip link set real1 up && "
+        "ip route add 224.0.0.0/4 dev real0 || exit 77; " +
+        preparation + "exec \"$0\" \"$@\"";
+    std::vector<std::string> words = {"-rn",
+                                      "sh",
+                                      "-c",
+                                      script,
+                                      (kPrograms / "crosswalk").string(),
+                                      "run",
+                                      kScenario.string(),
+                                      "--out",
+                                      out("a").string()};
+    words.insert(words.end(), options.begin(), options.end());
+    Launched run("/usr/bin/unshare", words, folder_.path() / "a.txt");
+    if (!wait_for(kLong, [&] { return run.has_said(" ms of ") || run.wait(0); }) ||
+        (run.wait(0) && (run.wait(0)->code == 77 || run.has_said("unshare failed"))))
+      return std::nullopt;
+    return run;
+  }
+};
+
+TEST_F(OnAMachineWithNetwork, RunsGoIntoAPrivateNetworkWhereSpyFindsThem) {
+  setenv("CROSSWALK_TOY_STEP_US", "2000", 1);
+  std::optional<Launched> run = start_there("", {"--until-ms", "5000"});
+  unsetenv("CROSSWALK_TOY_STEP_US");
+  if (!run) GTEST_SKIP() << "no network namespaces here";
+  EXPECT_THAT(run->output(), HasSubstr("in a private network (multicast here uses real0)"));
+  // In the place of lcm-spy, a `java` that tells where it is.
+  const fs::path java = folder_.path() / "java";
+  std::ofstream(java) << "#!/bin/sh\nreadlink /proc/self/ns/net\necho $LCM_DEFAULT_URL\n";
+  fs::permissions(java, fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (folder_.path().string() + ":" + path).c_str(), 1);
+  Launched spy(kPrograms / "crosswalk", {"spy", out("a").string()}, folder_.path() / "spy.txt");
+  const auto status = spy.wait(kLong);
+  setenv("PATH", path.c_str(), 1);
+  ASSERT_TRUE(status && status->is_success()) << spy.output();
+  const pid_t launcher = processes_called("crosswalk", out("a").string()).at(0);
+  const std::string network =
+      fs::read_symlink("/proc/" + std::to_string(launcher) + "/ns/net").string();
+  EXPECT_NE(network, fs::read_symlink("/proc/self/ns/net").string());
+  EXPECT_THAT(spy.output(), HasSubstr(network));
+  EXPECT_THAT(spy.output(), HasSubstr("udpm://239.255.76.67:"));
+  run->send(SIGINT);
+  EXPECT_EQ(run->wait(kLong)->code, 130) << run->output();
+}
+
+TEST_F(OnAMachineWithNetwork, MulticastServesWhereNoPrivateNetworkIsAllowed) {
+  std::optional<Launched> run =
+      start_there("echo 0 >/proc/sys/user/max_net_namespaces || exit 77; ", {});
+  if (!run) GTEST_SKIP() << "no network namespaces here";
+  const auto status = run->wait(kLong);
+  EXPECT_TRUE(status && status->is_success()) << run->output();
+  EXPECT_THAT(run->output(), HasSubstr("messages use the multicast of this machine"));
+}
+
+TEST_F(OnAMachineWithNetwork, GivenUrlIsTakenAsItIs) {
+  std::optional<Launched> run =
+      start_there("", {"--lcm-url", "udpm://239.255.76.67:19990?ttl=0&recv_buf_size=4194304"});
+  if (!run) GTEST_SKIP() << "no network namespaces here";
+  const auto status = run->wait(kLong);
+  EXPECT_TRUE(status && status->is_success()) << run->output();
+  EXPECT_THAT(run->output(), testing::Not(HasSubstr("private network")));
 }
 
 TEST_F(ToyRun, MistakesEndItBeforeAnythingStarts) {

@@ -96,11 +96,13 @@ CLI::App* define_replay(CLI::App& app, ReplayRequest& request) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   replay
-      ->add_option("--to", request.to,
-                   "bus: whoever listens; spy: lcm-spy; recorder: a fresh recorder and its results")
+      ->add_option(
+          "--to", request.to,
+          "bus: whoever listens; spy: lcm-spy; recorder: a fresh recorder and its results; fe: "
+          "a fresh fe_node does the windows again, its states are compared")
       ->capture_default_str()
-      ->check(CLI::IsMember({"bus", "spy", "recorder"}));
-  replay->add_option("--out", request.out, "Folder of the fresh recorder; <run>/replay by default");
+      ->check(CLI::IsMember({"bus", "spy", "recorder", "fe"}));
+  replay->add_option("--out", request.out, "Folder of the fresh process; <run>/replay by default");
   replay->add_option("--lcm-url", request.url, "LCM URL; by default one UDP port per run");
   replay->add_flag("--isolate", request.is_isolated, "Keep the messages in a private network");
   return replay;

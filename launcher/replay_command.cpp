@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <iostream>
 #include <optional>
 #include <thread>
 
@@ -13,6 +14,7 @@
 #include "launcher/network.h"
 #include "launcher/process.h"
 #include "launcher/spy_command.h"
+#include "launcher/supervisor.h"
 
 namespace crosswalk {
 
@@ -62,6 +64,40 @@ ProcessSpec recorder_process(const ReplayRequest& request, const std::string& ru
   return spec;
 }
 
+/// fe_node does the recorded grants again; what the comparison says comes to our output.
+ExitCode replay_to_fe(const ReplayRequest& request, const std::string& run_id,
+                      const std::string& url, const fs::path& out) {
+  const RunDirectory source(request.source), directory(out);
+  if (run_id.empty())
+    throw UserError(
+        Problem{Place{request.source.string()}, "--to fe", "a run folder", "a log alone", {}});
+  directory.create();
+  Process node({.name = "fe_node",
+                .program = sibling_program("fe_node"),
+                .arguments = {"run", "--scenario", source.scenario().string(), "--run-id", run_id,
+                              "--url", url, "--out", out.string()},
+                .log = directory.log("fe_node")});
+  Process feed({.name = "recorder feed",
+                .program = sibling_program("recorder"),
+                .arguments = {"feed", request.source.string(), "--url", url, "--run-id", run_id},
+                .log = directory.log("feed")});
+  fmt::print("fe_node does the windows of {} again, in {}\n", request.source.string(),
+             out.string());
+  std::fflush(stdout);
+  while (!feed.poll()) {
+    if (node.poll() && !node.poll()->is_success()) {
+      fmt::print("crosswalk: fe_node failed ({}):\n{}\n", node.poll()->text(),
+                 last_words(directory.log("fe_node")));
+      return ExitCode::NodeFailed;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  std::cout << std::ifstream(directory.log("feed")).rdbuf() << std::flush;
+  const ExitStatus status = *feed.poll();
+  if (status.is_success()) node.wait();
+  return status.signal != 0 ? ExitCode::NodeFailed : static_cast<ExitCode>(status.code);
+}
+
 ProcessSpec player_process(const fs::path& log, double speed, const std::string& url) {
   if (!fs::exists(kPlayer))
     throw UserError(Problem{Place{kPlayer}, "replay", "the player of LCM", "none",
@@ -86,6 +122,7 @@ ExitCode replay_command(const ReplayRequest& request) {
   const RunNetwork network =
       open_network(request.url, privacy, run_id.empty() ? log.filename().string() : run_id);
   const fs::path out = request.out.empty() ? request.source / "replay" : request.out;
+  if (request.to == "fe") return replay_to_fe(request, run_id, network.url, out);
   std::optional<Process> listener;
   if (request.to == "spy") {
     listener.emplace(spy_process(network.url));

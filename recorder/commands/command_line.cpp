@@ -136,6 +136,14 @@ Action define_watch(CLI::App& app) {
   return [request] { return reported(OutputForm::Text, [&request] { return watch(*request); }); };
 }
 
+Action define_feed(CLI::App& app) {
+  auto request = std::make_shared<FeedRequest>();
+  app.add_option("run", request->run, "Run folder")->required();
+  app.add_option("--url", request->url, "LCM URL of the node")->required();
+  app.add_option("--run-id", request->run_id, "Run id of the node")->required();
+  return [request] { return feed(*request); };
+}
+
 Action define_bench(CLI::App& app) {
   auto request = std::make_shared<BenchRequest>();
   app.add_option("what", request->what, "rating, report or live")->required();
@@ -154,6 +162,7 @@ std::vector<NodeCommand> commands() {
           {"compare", "Two or more runs side by side: table and HTML page.", define_compare},
           {"view", "Still pictures of a run.", define_view},
           {"watch", "Live page of a run on localhost.", define_watch},
+          {"feed", "A run's grants to a fresh fe_node (`crosswalk replay --to fe`).", define_feed},
           {"bench", "Speed of rating, report and live page.", define_bench}};
 }
 

@@ -70,6 +70,11 @@ struct WatchRequest {
   bool ends_with_run = false;  ///< as `crosswalk run --watch` wants it
 };
 
+struct FeedRequest {
+  std::filesystem::path run;
+  std::string url, run_id;  ///< of the node that is fed
+};
+
 struct BenchRequest {
   std::string what;           ///< "rating" or "report"
   std::filesystem::path run;  ///< for "report"
@@ -85,6 +90,7 @@ ExitCode report(const ReportRequest& request);
 ExitCode compare(const CompareRequest& request);
 ExitCode view(const ViewRequest& request);
 ExitCode watch(const WatchRequest& request);
+ExitCode feed(const FeedRequest& request);
 ExitCode bench(const BenchRequest& request);
 
 /// The JSON object of parameters in a file; an empty one when there is no file. Throws SignalError.

@@ -39,6 +39,16 @@ TEST_F(RealRun, ReplayIntoAFreshRecorderGivesTheSameChannels) {
   EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
 }
 
+TEST_F(RealRun, ReplayIntoAFreshFeNodeGivesTheSameStates) {
+  complete("a", {"--until-ms", "0.3"});
+  Launched replay = call(
+      "crosswalk", {"replay", out("a").string(), "--to", "fe", "--out", out("b").string()}, "fe");
+  const auto status = replay.wait(kLong);
+  ASSERT_TRUE(status) << replay.output();
+  EXPECT_TRUE(status->is_success()) << replay.output();
+  EXPECT_THAT(replay.output(), testing::ContainsRegex("[1-9][0-9]+ states compared, all bit-id"));
+}
+
 /// The text between the script's data element: charts and scene of a report.
 std::string page_data_of(const fs::path& report) {
   const std::string text = text_of(report);

@@ -2,26 +2,18 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "common/body_description.h"
+#include "common/body_formulas.h"
 #include "common/body_scaling.h"
-#include "common/formula.h"
+#include "common/joint_reader.h"
+#include "common/surface_reader.h"
+#include "common/words.h"
 
 namespace crosswalk {
 namespace {
-
-constexpr double kGirthMin = 0.88, kGirthMax = 1.12;  // single girths are unreliable [E]
-
-std::vector<std::string> words(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> list;
-  for (std::string word; stream >> word;) list.push_back(word);
-  return list;
-}
 
 /// A body as written, before masses are shared out.
 struct Draft {
@@ -35,12 +27,19 @@ struct Draft {
   double explicit_mass = 0, share = 0;
   std::string shape;
   std::vector<double> size;
-  std::string inertia_formula;
 };
 
 struct Group {
   double fraction = 0, weight = 0, mass = 0;
   bool paired = false, is_head_neck = false;
+};
+
+/// A shape of uniform density that bodies are cut from.
+struct Section {
+  bool is_trunk = false;
+  Vec3 top = Vec3::Zero();
+  double length = 0;
+  Curve a, b, x;  // a: radius of a limb
 };
 
 class SubjectReader {
@@ -54,47 +53,11 @@ class SubjectReader {
     read_bodies();
     share_masses();
     place_segments();
-    read_regions();
-    read_ellipsoids();
-    read_bushings();
-    read_self_contacts();
-    read_contact();
+    read_surface(subject_, formulas_, out_);
     return std::move(out_);
   }
 
  private:
-  // ---- formulas
-  std::vector<double> formula(ConfigTable& table, std::string_view key, std::size_t count,
-                              const std::string& doc, const Variables& variables) {
-    const std::string text = table.text(key, doc);
-    std::vector<double> values(count == 0 ? 1 : count, 1.0);
-    if (text.empty()) return values;
-    try {
-      values = evaluate_formula(text, variables);
-      if (count != 0 && values.size() != count) {
-        table.problem(key, fmt::format("{} formulas", count), fmt::format("{}", values.size()));
-        values.assign(count, 1.0);
-      }
-    } catch (const FormulaError& error) {
-      table.problem(key, "a formula in body measures", error.what());
-    }
-    return values;
-  }
-  Vec3 vector(ConfigTable& table, std::string_view key, const std::string& doc) {
-    const std::vector<double> v = formula(table, key, 3, doc, now_);
-    return {v[0], v[1], v[2]};
-  }
-  double scalar(ConfigTable& table, std::string_view key, const std::string& doc) {
-    return formula(table, key, 1, doc, now_)[0];
-  }
-  double girth(ConfigTable& table, std::string_view key = "girth") {
-    return std::clamp(scalar(table, key, "girth ratio to the reference person"), kGirthMin,
-                      kGirthMax);
-  }
-  double length_ratio(ConfigTable& table) {
-    return scalar(table, "length", "length ratio to the reference person");
-  }
-
   // ---- measures, groups, sections
   void read_measures() {
     out_.name = subject_.text_or("name", "subject", "name of the subject");
@@ -111,15 +74,16 @@ class SubjectReader {
         table.quantity_or("stance_half_width", Dimension::Length, kNonNegative, 0,
                           "half distance of the hip joints; 0: 0.245 of the hip breadth");
     const JointHeights heights = solve_heights(out_.measures, overrides);
-    now_ = body_variables(out_.measures, heights, overrides);
-    reference_ = body_variables(reference, solve_heights(reference), {});
+    Variables now = body_variables(out_.measures, heights, overrides);
     out_.height_residuals = heights.residuals;
     for (const char* length : {"L_th", "L_sh", "L_ua", "L_fa", "z_ankle"}) {
-      if (now_[length] > 0) continue;
+      if (now[length] > 0) continue;
       subject_.problem("", fmt::format("measures that leave {} positive", length),
-                       fmt::format("{:.1f} mm", 1e3 * now_[length]),
+                       fmt::format("{:.1f} mm", 1e3 * now[length]),
                        "the measured heights contradict each other");
     }
+    formulas_ =
+        BodyFormulas(std::move(now), body_variables(reference, solve_heights(reference), {}));
     bone_quality_ = subject_.quantity_or("bone_quality", Dimension::None, {0.3, 1.5}, 1,
                                          "factor on fracture moments for age");
   }
@@ -137,17 +101,15 @@ class SubjectReader {
                                             "part that is left after an amputation");
       double ratio = 1;
       if (!group.is_head_neck) {
-        const std::string doc = "volume measure of the group";
-        const double now = formula(table, "volume", 1, doc, now_)[0];
-        ratio = now / formula(table, "volume", 1, doc, reference_)[0];
+        ratio = formulas_.ratio(table, "volume", "volume measure of the group");
       }
       group.weight = group.fraction * ratio * keep;
     }
   }
 
   Curve section_curve(ConfigTable& table, std::string_view x, std::string_view y) {
-    const std::vector<double> xs = formula(table, x, 0, "stations", now_);
-    const std::vector<double> ys = formula(table, y, xs.size(), "values at the stations", now_);
+    const std::vector<double> xs = formulas_.list(table, x, 0, "stations");
+    const std::vector<double> ys = formulas_.list(table, y, xs.size(), "values at the stations");
     try {
       return Curve(xs, ys);
     } catch (const std::invalid_argument& error) {
@@ -168,8 +130,8 @@ class SubjectReader {
         section.b = section_curve(table, "z", "b");
         section.x = section_curve(table, "z", "x");
       } else {
-        section.top = vector(table, "top", "proximal end");
-        section.length = scalar(table, "length", "length");
+        section.top = formulas_.vector(table, "top", "proximal end");
+        section.length = formulas_.scalar(table, "length", "length");
         section.a = section_curve(table, "station", "radius");
       }
     }
@@ -192,7 +154,7 @@ class SubjectReader {
     ConfigTable joints = subject_.table("joint", "restraints, by child body");
     for (const std::string& name : joints.table_names()) {
       ConfigTable table = joints.table(name, "restraint of one joint");
-      const JointRestraint restraint = read_restraint(table);
+      const JointRestraint restraint = read_restraint(table, formulas_, bone_quality_);
       for (Draft& draft : drafts_) {
         if (draft.name == name) draft.segment.restraint = restraint;
       }
@@ -213,7 +175,7 @@ class SubjectReader {
     draft.parent = table.text_or("parent", "", "parent body");
     draft.segment.joint =
         kJoints.at(table.choice_or("joint", kinds, "ball", "joint to the parent"));
-    draft.segment.joint_centre = vector(table, "at", "joint centre");
+    draft.segment.joint_centre = formulas_.vector(table, "at", "joint centre");
     draft.group = table.text("group", "mass group");
     if (groups_.count(draft.group) == 0) {
       table.problem("group", "a mass group", fmt::format("`{}`", draft.group));
@@ -225,21 +187,20 @@ class SubjectReader {
     if (draft.is_section) {
       cut_section(table, draft);
     } else {
-      draft.segment.com = vector(table, "com", "centre of mass");
+      draft.segment.com = formulas_.vector(table, "com", "centre of mass");
       draft.share =
           table.quantity_or("share", Dimension::None, {0, 1}, 1, "part of the group mass");
-      if (draft.shape == "direct") {
-        draft.inertia_formula = table.text("inertia", "moments about the centre of mass");
-      } else {
+      if (draft.shape != "direct") {
         const std::size_t count = draft.shape == "sphere"                              ? 1
                                   : draft.shape == "box" || draft.shape == "ellipsoid" ? 3
                                                                                        : 2;
-        draft.size = formula(table, "size", count,
-                             "box edges; semi-axes; radius; radius and length of a cylinder", now_);
+        draft.size = formulas_.list(
+            table, "size", count, "box edges; semi-axes; radius; radius and length of a cylinder");
       }
     }
     if (table.has("body_mass")) {
-      draft.explicit_mass = scalar(table, "body_mass", "mass taken out of the group first");
+      draft.explicit_mass =
+          formulas_.scalar(table, "body_mass", "mass taken out of the group first");
     }
     return draft;
   }
@@ -247,7 +208,7 @@ class SubjectReader {
   void cut_section(ConfigTable& table, Draft& draft) {
     const std::string name = table.text("section", "shape the body is cut from");
     const std::vector<double> cut =
-        formula(table, "cut", 2, "levels of the trunk, or s of a limb", now_);
+        formulas_.list(table, "cut", 2, "levels of the trunk, or s of a limb");
     const auto found = sections_.find(name);
     if (found == sections_.end()) {
       table.problem("section", "a section", fmt::format("`{}`", name));
@@ -314,12 +275,8 @@ class SubjectReader {
     }
     if (draft.shape == "sphere") return Vec3::Constant(0.4 * m * s[0] * s[0]);
     if (draft.shape == "direct") {
-      Variables variables = now_;
-      variables["m"] = m;
       ConfigTable table = subject_.table("body", "").table(draft.name, "");
-      const std::vector<double> v =
-          formula(table, "inertia", 3, "moments about the centre of mass", variables);
-      return {v[0], v[1], v[2]};
+      return formulas_.moments(table, "inertia", "moments about the centre of mass", m);
     }
     const double r2 = s[0] * s[0], l2 = s[1] * s[1];
     const double across = m * (l2 / 12 + r2 / 4), along = m * r2 / 2;
@@ -389,238 +346,8 @@ class SubjectReader {
     }
   }
 
-  // ---- restraints
-  JointRestraint read_restraint(ConfigTable& table) {
-    JointRestraint restraint;
-    const double g = girth(table);
-    const double l = length_ratio(table);
-    restraint.coordinates =
-        table.choice_or("coordinates", {"cardan", "swing_twist"}, "cardan",
-                        "how the three angles of a ball joint are taken") == "cardan"
-            ? Coordinates::Cardan
-            : Coordinates::SwingTwist;
-    constexpr std::array<const char*, 3> kNames = {"alpha", "beta", "gamma"};
-    for (int i = 0; i < 3; ++i) {
-      if (!table.has(kNames[i])) continue;
-      ConfigTable angle = table.table(kNames[i], "restraint about y (alpha), x (beta), z (gamma)");
-      restraint.angle[i] = read_coordinate(angle, g, l);
-    }
-    if (table.has("bone")) {
-      ConfigTable bone = table.table("bone", "bending and torsion of a long bone");
-      restraint.bone = read_bone(bone, g, l);
-    }
-    if (table.has("shear_x")) {
-      restraint.shear = table
-                            .curve("shear", Dimension::Length, Dimension::Force,
-                                   Curve::Outside::LastSlope, "lateral shear force, odd")
-                            .scaled(g, g * g);
-      restraint.shear_damping = g * g *
-                                table.quantity("shear_c", Dimension::Damping, kNonNegative,
-                                               "damping of the lateral shear");
-    }
-    return restraint;
-  }
-
-  CoordinateLaw read_coordinate(ConfigTable& table, double g, double l) {
-    CoordinateLaw law;
-    const double stiffness = std::pow(g, 4) / l, moment = std::pow(g, 3), damping = std::pow(g, 4);
-    law.damping = damping * table.quantity("c", Dimension::AngularDamping, kNonNegative, "damping");
-    law.friction = moment * table.quantity_or("friction", Dimension::Moment, kNonNegative, 0,
-                                              "Coulomb friction moment");
-    if (table.has("ligament_x")) {
-      law.min = -10;  // no stop: the ligament curve bounds the motion
-      law.max = 10;
-      law.ligament = read_ligament(table, moment);
-      return law;
-    }
-    const std::vector<double> range =
-        table.quantities("range", Dimension::Angle, 2, "free range between the stops");
-    law.min = range[0];
-    law.max = range[1];
-    law.k0 = stiffness * table.quantity_or("k0", Dimension::AngularStiffness, kNonNegative, 0,
-                                           "stiffness about the initial angle");
-    const double k1 = table.quantity("k1", Dimension::AngularStiffness, kNonNegative,
-                                     "linear stop stiffness beyond the range");
-    const double k2 =
-        table.quantity("k2", Dimension::None, kNonNegative, "quadratic stop stiffness, N m/rad2");
-    law.high = {stiffness * k1, stiffness * k2};
-    law.low = {
-        stiffness * table.quantity_or("k1_low", Dimension::AngularStiffness, kNonNegative, k1,
-                                      "linear stop stiffness below the range; default k1"),
-        stiffness * table.quantity_or("k2_low", Dimension::None, kNonNegative, k2,
-                                      "quadratic stop stiffness below the range; default k2")};
-    const std::string passive = table.choice_or("passive", {"none", "hip", "knee", "ankle"}, "none",
-                                                "two-joint passive moment [riener1999]");
-    law.passive = passive == "hip"     ? PassiveMoment::Hip
-                  : passive == "knee"  ? PassiveMoment::Knee
-                  : passive == "ankle" ? PassiveMoment::Ankle
-                                       : PassiveMoment::None;
-    law.passive_factor = moment;
-    return law;
-  }
-
-  static LigamentLaw read_ligament(ConfigTable& table, double moment) {
-    LigamentLaw law;
-    law.moment = table
-                     .curve("ligament", Dimension::Angle, Dimension::Moment,
-                            Curve::Outside::LastSlope, "moment about the initial angle, odd")
-                     .scaled(1, moment);
-    law.unloading = moment * table.quantity("unloading", Dimension::AngularStiffness, kPositive,
-                                            "slope of unloading");
-    law.failure = table.quantity("failure", Dimension::Angle, kPositive, "angle at which it tears");
-    law.undamaged = moment * table.quantity("undamaged", Dimension::AngularStiffness, kPositive,
-                                            "slope beyond 12 deg when failure is off");
-    return law;
-  }
-
-  BoneLaw read_bone(ConfigTable& table, double g, double l) {
-    const double stiffness = std::pow(g, 4) / l, damping = std::pow(g, 4);
-    BoneLaw law;
-    law.bone = table.text("name", "bone the joint belongs to");
-    law.bending = stiffness * table.quantity("bending", Dimension::AngularStiffness, kPositive,
-                                             "bending stiffness");
-    law.torsion = stiffness * table.quantity("torsion", Dimension::AngularStiffness, kPositive,
-                                             "torsion stiffness");
-    law.bending_damping = damping * table.quantity("bending_c", Dimension::AngularDamping,
-                                                   kNonNegative, "bending damping");
-    law.torsion_damping = damping * table.quantity("torsion_c", Dimension::AngularDamping,
-                                                   kNonNegative, "torsion damping");
-    law.fracture_moment =
-        bone_quality_ * std::pow(girth(table, "fracture_girth"), 3) *
-        table.quantity("fracture", Dimension::Moment, kPositive, "bending moment at fracture");
-    return law;
-  }
-
-  // ---- surfaces and contacts
-  void read_regions() {
-    ConfigTable contact = subject_.table("contact", "contact of the body");
-    const double permanent =
-        contact.quantity("flesh_permanent_fraction", Dimension::None, {0, 0.99},
-                         "penetration left after unloading, as a fraction of the largest");
-    const double exponent = contact.quantity("unloading_exponent", Dimension::None, {1, 10},
-                                             "exponent of the unloading curve");
-    ConfigTable regions = subject_.table("region", "contact curves of the body surface");
-    for (const std::string& name : regions.table_names()) {
-      ConfigTable table = regions.table(name, "contact curve of one region");
-      const double g = girth(table);
-      const double l = length_ratio(table);
-      const Curve force = table.curve("force", Dimension::Length, Dimension::Force,
-                                      Curve::Outside::LastSlope, "force against penetration");
-      out_.regions.push_back({name, {force.scaled(g, g * l), permanent, exponent}});
-    }
-  }
-
-  void read_ellipsoids() {
-    std::vector<std::string> region_names;
-    for (const Region& region : out_.regions) region_names.push_back(region.name);
-    ConfigTable ellipsoids = subject_.table("ellipsoid", "surface ellipsoids");
-    for (const std::string& name : ellipsoids.table_names()) {
-      ConfigTable table = ellipsoids.table(name, "one surface ellipsoid");
-      const std::string body = table.text("body", "body that carries it");
-      const bool paired = table.flag_or("paired", false, "two of them on one unpaired body");
-      const std::string region = table.choice_or("region", region_names, "", "contact region");
-      SurfaceEllipsoid shape;
-      shape.centre = vector(table, "centre", "centre");
-      shape.semi_axes = vector(table, "semi_axes", "semi-axes");
-      if (!(shape.semi_axes.minCoeff() > 0)) {
-        table.problem("semi_axes", "three positive lengths",
-                      fmt::format("{:.1f} mm", 1e3 * shape.semi_axes.minCoeff()));
-      }
-      const auto found = std::find(region_names.begin(), region_names.end(), region);
-      if (found == region_names.end()) table.problem("region", "a contact region", region);
-      shape.region = static_cast<int>(found - region_names.begin());
-      add_ellipsoid(shape, name, body, paired);
-    }
-  }
-
-  void add_ellipsoid(SurfaceEllipsoid shape, const std::string& name, const std::string& body,
-                     bool paired_on_one_body) {
-    const int single = out_.find_segment(body);
-    if (single >= 0 && !paired_on_one_body) {
-      shape.name = name;
-      shape.segment = single;
-      out_.ellipsoids.push_back(shape);
-      return;
-    }
-    for (const auto& [suffix, side] : {std::pair{"_l", 1}, std::pair{"_r", -1}}) {
-      SurfaceEllipsoid copy = shape;
-      copy.name = name + suffix;
-      copy.centre.y() *= side;
-      copy.segment = single >= 0 ? single : out_.find_segment(body + suffix);
-      if (copy.segment >= 0) out_.ellipsoids.push_back(copy);  // else amputated
-    }
-  }
-
-  void read_bushings() {
-    ConfigTable table = subject_.table("scapulothoracic", "scapula on the rib cage");
-    const std::vector<double> k =
-        table.quantities("stiffness", Dimension::Stiffness, 3, "along x, y, z of torso_up");
-    const double g = girth(table);
-    Bushing bushing;
-    bushing.stiffness = g * Vec3(k[0], k[1], k[2]);
-    bushing.damping =
-        g * g * table.quantity("damping", Dimension::Damping, kNonNegative, "damping");
-    bushing.stop = g * table.quantity("stop", Dimension::Length, kPositive,
-                                      "lateral travel before the quadratic stop");
-    bushing.stop_stiffness = 1e6 * table.quantity("stop_MN_per_m2", Dimension::None, kNonNegative,
-                                                  "quadratic lateral stop, MN/m2");
-    bushing.base = out_.find_segment("torso_up");
-    for (const char* name : {"scapula_l", "scapula_r"}) {
-      bushing.segment = out_.find_segment(name);
-      if (bushing.segment >= 0 && bushing.base >= 0) out_.bushings.push_back(bushing);
-    }
-  }
-
-  void read_self_contacts() {
-    ConfigTable table = subject_.table("self_contact", "contacts of the body with itself");
-    out_.contact.friction_self =
-        table.quantity("friction", Dimension::None, {0, 2}, "friction of body on body");
-    const auto pair_up = [this](const std::string& a, const std::string& b) {
-      const int first = out_.find_ellipsoid(a), second = out_.find_ellipsoid(b);
-      if (first >= 0 && second >= 0) out_.self_contacts.emplace_back(first, second);
-    };
-    const auto trunk = words(table.text("trunk", "trunk ellipsoids that the limbs may touch"));
-    for (const std::string& limb :
-         words(table.text("limbs", "limb ellipsoids that may touch it"))) {
-      for (const std::string& part : trunk) {
-        pair_up(limb + "_l", part);
-        pair_up(limb + "_r", part);
-      }
-    }
-    const auto sides = words(table.text("between_sides", "ellipsoids that touch across the sides"));
-    for (const std::string& left : sides) {
-      for (const std::string& right : sides) pair_up(left + "_l", right + "_r");
-    }
-    const auto chest = words(table.text("chest", "ellipsoids that the head may touch"));
-    for (const std::string& head : words(table.text("head", "head ellipsoids that touch it"))) {
-      for (const std::string& part : chest) pair_up(head, part);
-    }
-  }
-
-  void read_contact() {
-    ConfigTable table = subject_.table("contact", "contact of the body");
-    ContactSettings& contact = out_.contact;
-    contact.rate = table.quantity("rate_s_per_m", Dimension::None, {0, 1},
-                                  "force x (1 + rate v), v the approach speed in m/s");
-    contact.friction_ground =
-        table.quantity("friction_ground", Dimension::None, {0, 2}, "friction of body and ground");
-    contact.ground_foot = table.quantity("ground_foot", Dimension::Stiffness, kPositive,
-                                         "stiffness of one foot ellipsoid on the ground");
-    contact.ground_body = table.quantity("ground_body", Dimension::Stiffness, kPositive,
-                                         "stiffness of any other ellipsoid on the ground");
-    contact.ground_damping =
-        table.quantity("ground_damping", Dimension::Damping, kNonNegative, "damping on approach");
-  }
-
-  struct Section {
-    bool is_trunk = false;
-    Vec3 top = Vec3::Zero();
-    double length = 0;
-    Curve a, b, x;  // a: radius of a limb
-  };
-
   ConfigTable subject_;
-  Variables now_, reference_;
+  BodyFormulas formulas_;
   double bone_quality_ = 1;
   std::map<std::string, Group> groups_;
   std::map<std::string, Section> sections_;

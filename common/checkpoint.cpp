@@ -135,15 +135,4 @@ std::int64_t checkpoint_to_resume(const fs::path& checkpoints) {
   return *window;
 }
 
-void ByteReader::copy(void* to, std::size_t n) {
-  require(n <= bytes_.size() - at_);
-  std::memcpy(to, bytes_.data() + at_, n);
-  at_ += n;
-}
-
-void ByteReader::require(bool holds) {
-  if (!holds)
-    throw ProtocolError(ExitCode::CheckpointMismatch, "a checkpoint ends too early for this model");
-}
-
 }  // namespace crosswalk

@@ -25,15 +25,15 @@ std::int64_t Coupler::run(const std::vector<InterfaceBody>& bodies) {
 }
 
 void Coupler::save(ByteWriter& out) const {
-  put(out, state_);
-  out.put(audit_.books());
-  out.put(seen_);
+  coupling::save(state_, out);
+  out.value(audit_.books());
+  out.value(seen_);
 }
 
 void Coupler::load(ByteReader& in) {
-  state_ = get_coupling_state(in);
-  audit_.continue_from(in.get<EnergyAudit::Books>());
-  seen_ = in.get<Seen>();
+  state_ = load_coupling_state(in);
+  audit_.continue_from(in.take<EnergyAudit::Books>());
+  in.value(seen_);
 }
 
 bool Coupler::advance() {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "common/checkpoint.h"
 #include "coupler/coupler.h"
 #include "coupler/lcm_link.h"
 

@@ -155,6 +155,25 @@ WindowResult advance_implicit(const SchemeSettings& settings, CouplingState& sta
   return result;
 }
 
+/// One list of the fields for both directions of a checkpoint.
+template <class Archive, class State>
+void visit(Archive& archive, State& state) {
+  archive.value(state.window);
+  for (std::size_t k = 0; k < state.motion.size(); ++k) {
+    auto& m = state.motion[k];
+    archive.values(m.X_WB.p);
+    archive.values(m.X_WB.q.coeffs());
+    archive.values(m.V_WB.w);
+    archive.values(m.V_WB.v);
+    archive.values(state.bias[k]);
+    archive.values(state.bias_before[k]);
+    archive.values(state.carry[k]);
+  }
+  archive.values(state.mobility);
+  archive.value(state.mobility_is_due);
+  archive.value(state.mobility_window);
+}
+
 }  // namespace
 
 CouplingState start_state(const std::vector<InterfaceBody>& bodies) {
@@ -164,52 +183,17 @@ CouplingState start_state(const std::vector<InterfaceBody>& bodies) {
   return state;
 }
 
-void put(ByteWriter& out, const CouplingState& state) {
-  out.put(state.window);
-  out.put(static_cast<std::int64_t>(state.motion.size()));
-  for (std::size_t k = 0; k < state.motion.size(); ++k) {
-    const BodyMotion& m = state.motion[k];
-    out.put_all(m.X_WB.p.data(), 3);
-    out.put_all(m.X_WB.q.coeffs().data(), 4);
-    out.put_all(stack(m.V_WB).data(), 6);
-    out.put_all(state.bias[k].data(), 6);
-    out.put_all(state.bias_before[k].data(), 6);
-    out.put_all(state.carry[k].data(), 6);
-  }
-  out.put(static_cast<std::int64_t>(state.mobility.rows()));
-  out.put_all(state.mobility.data(), static_cast<std::size_t>(state.mobility.size()));
-  out.put(state.mobility_is_due);
-  out.put(state.mobility_window);
+void save(const CouplingState& state, ByteWriter& out) {
+  out.value(state.motion.size());
+  out.value(state.mobility.rows());
+  visit(out, state);
 }
 
-CouplingState get_coupling_state(ByteReader& in) {
-  const auto numbers = [&]<int N>(std::integral_constant<int, N>) {
-    const std::vector<double> a = in.get_all<double>();
-    if (a.size() != N)
-      throw ProtocolError(ExitCode::CheckpointMismatch, "the coupler's part is damaged");
-    return Eigen::Matrix<double, N, 1>(a.data());
-  };
-  constexpr std::integral_constant<int, 3> three;
-  constexpr std::integral_constant<int, 4> four;
-  constexpr std::integral_constant<int, 6> six;
-  CouplingState state;
-  state.window = in.get<std::int64_t>();
-  const auto n = in.get<std::int64_t>();
-  for (std::int64_t k = 0; k < n; ++k) {
-    BodyMotion m;
-    m.X_WB.p = numbers(three);
-    m.X_WB.q.coeffs() = numbers(four);
-    m.V_WB = twist_from(numbers(six));
-    state.motion.push_back(m);
-    state.bias.push_back(numbers(six));
-    state.bias_before.push_back(numbers(six));
-    state.carry.push_back(numbers(six));
-  }
-  const auto rows = in.get<std::int64_t>();
-  const std::vector<double> mobility = in.get_all<double>();
-  state.mobility = Eigen::Map<const Eigen::MatrixXd>(mobility.data(), rows, rows);
-  state.mobility_is_due = in.get<bool>();
-  state.mobility_window = in.get<std::int64_t>();
+CouplingState load_coupling_state(ByteReader& in) {
+  CouplingState state = start_state(std::vector<InterfaceBody>(in.take<std::size_t>()));
+  const auto rows = in.take<Eigen::Index>();
+  state.mobility.resize(rows, rows);
+  visit(in, state);
   return state;
 }
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/checkpoint.h"
+#include "common/byte_archive.h"
 #include "coupler/participant_link.h"
 
 namespace crosswalk::coupling {
@@ -52,8 +52,8 @@ struct WindowResult {
 CouplingState start_state(const std::vector<InterfaceBody>& bodies);
 
 /// The state as bytes, for checkpoints.
-void put(ByteWriter& out, const CouplingState& state);
-CouplingState get_coupling_state(ByteReader& in);
+void save(const CouplingState& state, ByteWriter& out);
+CouplingState load_coupling_state(ByteReader& in);
 
 /// Advances both sides by one window of window_ns and updates the state.
 WindowResult advance_window(const SchemeSettings& settings, CouplingState& state,

@@ -228,8 +228,9 @@ std::string FeNode::description() const {
 std::vector<std::byte> FeNode::save_state() const {
   ByteWriter writer;
   write_state(run_.state, writer);
-  writer.value(run_.head_twist);
-  writer.vector(run_.peaks);
+  writer.values(run_.head_twist.w);
+  writer.values(run_.head_twist.v);
+  writer.list(run_.peaks);
   writer.value(run_.next_tissue_ns);
   writer.value(run_.next_strain_ns);
   writer.value(run_.next_field_ns);
@@ -240,16 +241,14 @@ std::vector<std::byte> FeNode::save_state() const {
 void FeNode::load_state(const std::vector<std::byte>& bytes) {
   ByteReader reader(bytes);
   read_state(reader, run_.state);
-  reader.value(run_.head_twist);
-  reader.vector(run_.peaks);
+  reader.values(run_.head_twist.w);
+  reader.values(run_.head_twist.v);
+  reader.list(run_.peaks);
   reader.value(run_.next_tissue_ns);
   reader.value(run_.next_strain_ns);
   reader.value(run_.next_field_ns);
-  std::int64_t done = 0;
-  reader.value(done);
-  if (!reader.is_at_end())
-    throw ProtocolError(ExitCode::CheckpointMismatch, "the saved state is too long for this model");
-  progress_ = done;
+  progress_ = reader.take<std::int64_t>();
+  reader.require_end();
   if (fields_) fields_->continue_after(run_.state.time);
 }
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "common/checkpoint.h"
+#include "common/byte_archive.h"
 #include "common/error.h"
 #include "mb_node/node_description.h"
 
@@ -130,12 +130,12 @@ std::string PlayedMotion::description() const {
 
 std::vector<std::byte> PlayedMotion::save_state() const {
   ByteWriter out;
-  out.put(work_);
+  out.value(work_);
   return out.take();
 }
 
 void PlayedMotion::load_state(const std::vector<std::byte>& bytes) {
-  work_ = ByteReader(bytes).get<double>();
+  work_ = ByteReader(bytes).take<double>();
 }
 
 }  // namespace crosswalk::mb

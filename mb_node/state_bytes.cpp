@@ -1,9 +1,6 @@
 #include "mb_node/state_bytes.h"
 
-#include <cstring>
-#include <type_traits>
-
-#include "common/error.h"
+#include "common/byte_archive.h"
 
 namespace crosswalk::mb {
 namespace {
@@ -39,52 +36,18 @@ void visit(Archive& archive, State& state) {
   archive.value(state.first_contact_time);
 }
 
-struct Writer {
-  std::vector<std::byte> bytes;
-  template <class T>
-  void value(const T& v) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const auto* from = reinterpret_cast<const std::byte*>(&v);
-    bytes.insert(bytes.end(), from, from + sizeof(T));
-  }
-  template <class T>
-  void values(const std::vector<T>& vs) {
-    for (const T& v : vs) value(v);
-  }
-};
-
-struct Reader {
-  const std::vector<std::byte>& bytes;
-  std::size_t at = 0;
-  template <class T>
-  void value(T& v) {
-    if (at + sizeof(T) > bytes.size()) {
-      throw ProtocolError(ExitCode::CheckpointMismatch,
-                          "multibody state: too short for this model");
-    }
-    std::memcpy(&v, bytes.data() + at, sizeof(T));
-    at += sizeof(T);
-  }
-  template <class T>
-  void values(std::vector<T>& vs) {
-    for (T& v : vs) value(v);
-  }
-};
-
 }  // namespace
 
 std::vector<std::byte> to_bytes(const MbState& state) {
-  Writer writer;
+  ByteWriter writer;
   visit(writer, state);
-  return std::move(writer.bytes);
+  return writer.take();
 }
 
 void from_bytes(const std::vector<std::byte>& bytes, MbState& state) {
-  Reader reader{bytes};
+  ByteReader reader(bytes);
   visit(reader, state);
-  if (reader.at != bytes.size()) {
-    throw ProtocolError(ExitCode::CheckpointMismatch, "multibody state: too long for this model");
-  }
+  reader.require_end();
 }
 
 }  // namespace crosswalk::mb

@@ -1,5 +1,6 @@
 #include "recorder/recorder_session.h"
 
+#include "common/byte_archive.h"
 #include "crosswalk/msg/recorder_ack.hpp"
 
 namespace crosswalk::recording {
@@ -41,14 +42,14 @@ void RecorderSession::on_control(const msg::run_control& control) {
   if (command == Command::Checkpoint && recorder_.gaps(1).empty()) {
     recorder_.sync();
     ByteWriter part;
-    part.put(recorder_.extent());
+    part.value(recorder_.extent());
     write_checkpoint({control.window, -1, 0, part.take()});
   }
 }
 
 LogExtent kept_log(const std::filesystem::path& checkpoints, std::int64_t window) {
   const CheckpointPart part = read_part(checkpoints, Role::Recorder, window);
-  return ByteReader(part.state).get<LogExtent>();
+  return ByteReader(part.state).take<LogExtent>();
 }
 
 void RecorderSession::after_message() {

@@ -219,19 +219,19 @@ MbReply NeckBodies::advance(const MbGrant& grant, RecordSink&) {
 std::vector<std::byte> NeckBodies::save_state() const {
   ByteWriter out;
   const mb::WorldState world = world_->save();
-  out.put_all(world.bodies.data(), world.bodies.size());
-  out.put(now_.time);
-  out.put(now_.work);
+  out.values(world.bodies);
+  out.value(now_.time);
+  out.value(now_.work);
   return out.take();
 }
 
 void NeckBodies::load_state(const std::vector<std::byte>& bytes) {
   ByteReader in(bytes);
   mb::WorldState world = world_->save();
-  world.bodies = in.get_all<double>();
+  in.values(world.bodies);
   world_->restore(world);
-  now_.time = in.get<double>();
-  now_.work = in.get<double>();
+  in.value(now_.time);
+  in.value(now_.work);
 }
 
 LatticeNeck::LatticeNeck(const NeckCase& c) : case_(c), model_(neck_model(c, 0)) {
@@ -274,13 +274,13 @@ FeReply LatticeNeck::advance(const FeGrant& grant, RecordSink&) {
 }
 
 std::vector<std::byte> LatticeNeck::save_state() const {
-  fe::ByteWriter writer;
+  ByteWriter writer;
   fe::write_state(state_, writer);
   return writer.take();
 }
 
 void LatticeNeck::load_state(const std::vector<std::byte>& bytes) {
-  fe::ByteReader reader(bytes);
+  ByteReader reader(bytes);
   fe::read_state(reader, state_);
 }
 

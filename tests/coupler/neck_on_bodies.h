@@ -8,7 +8,7 @@
 #include <cmath>
 #include <optional>
 
-#include "common/checkpoint.h"
+#include "common/byte_archive.h"
 #include "common/exchange.h"
 #include "common/schedule.h"
 #include "common/units.h"

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "common/checkpoint.h"
+#include "common/byte_archive.h"
 #include "common/exchange.h"
 #include "common/protocol.h"
 
@@ -24,15 +24,15 @@ inline std::vector<InterfaceBody> one_body() {
 template <class T>
 std::vector<std::byte> bytes_of(const T& state, double work) {
   ByteWriter out;
-  out.put(state);
-  out.put(work);
+  out.value(state);
+  out.value(work);
   return out.take();
 }
 template <class T>
 void from_bytes(const std::vector<std::byte>& bytes, T& state, double& work) {
   ByteReader in(bytes);
-  state = in.get<T>();
-  work = in.get<double>();
+  in.value(state);
+  in.value(work);
 }
 
 struct MbBody {

@@ -1,6 +1,7 @@
 // The block class behind make_hex8_block(), one instance per material law.
 #pragma once
 
+#include "fe_node/element/flatten.h"
 #include "fe_node/element/hex8.h"
 #include "fe_node/element/hex8_kernel.h"
 
@@ -49,10 +50,9 @@ class Hex8Block final : public ElementBlock {
   double density() const override { return law_.density; }
 
   // Flattened: the compiler otherwise leaves lane arithmetic of so large a function in calls.
-  [[gnu::flatten]] void forces(const StepContext& step, std::span<double> history,
-                               std::span<double> corner_forces,
-                               std::span<double> /*corner_moments*/, int first, int last,
-                               BlockSums& sums) const override {
+  CW_FLATTEN void forces(const StepContext& step, std::span<double> history,
+                         std::span<double> corner_forces, std::span<double> /*corner_moments*/,
+                         int first, int last, BlockSums& sums) const override {
     for (int group = first; group < last; ++group) {
       if (group + 1 < group_count()) fetch_ahead(step.nodes, group + 1);
       const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));

@@ -1,5 +1,7 @@
 #include "fe_node/element/section_integral.h"
 
+#include "fe_node/element/flatten.h"
+
 namespace crosswalk::fe {
 namespace {
 
@@ -15,8 +17,7 @@ struct Accumulator {
   // Flattened, with sums of its own: else they would go through memory, as the history might alias
   // them.
   template <class Law>
-  [[gnu::flatten]] Lanes* layer(const Law& law, const std::vector<ShellPoint>& points,
-                                Lanes* history) {
+  CW_FLATTEN Lanes* layer(const Law& law, const std::vector<ShellPoint>& points, Lanes* history) {
     const int size = kStress + law.history_size();
     SectionAnswer sum = answer;
     for (const ShellPoint& point : points) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/error.h"
+#include "fe_node/element/flatten.h"
 #include "fe_node/element/section_integral.h"
 
 namespace crosswalk::fe {
@@ -254,11 +255,10 @@ inline void store(const Lanes3& a, const Lanes& factor, double* to) {
 }
 
 template <int kCorners>
-[[gnu::flatten]] void ShellBlock<kCorners>::forces(const StepContext& step,
-                                                   std::span<double> history,
-                                                   std::span<double> corner_forces,
-                                                   std::span<double> corner_moments, int first,
-                                                   int last, BlockSums& sums) const {
+CW_FLATTEN void ShellBlock<kCorners>::forces(const StepContext& step, std::span<double> history,
+                                             std::span<double> corner_forces,
+                                             std::span<double> corner_moments, int first, int last,
+                                             BlockSums& sums) const {
   const bool is_bending = has_moments();
   const double half = 0.5 * step.dt;
   for (int group = first; group < last; ++group) {

@@ -71,13 +71,13 @@ TEST(Erosion, WithoutInnerFacesTheSurfaceOnlyVanishes) {
   EXPECT_GT(stack.force_at(0.299, 1).z(), 0);
   stack.kill(2);
   EXPECT_EQ(stack.force_at(0.299, 2).norm(), 0);
-  EXPECT_EQ(stack.force_at(0.199, 3).z(), 0);  // its sides may push it out sideways
+  EXPECT_NEAR(stack.force_at(0.199, 3).z(), 0, 1e-9);  // its sides may push it out sideways
 }
 
 TEST(Erosion, InnerFacesDoNotPushWhileTheyAreCovered) {
   Stack stack(InnerFaces::Kept);
-  EXPECT_EQ(stack.force_at(0.15, 1).z(), 0);  // its sides may push it out sideways
-  EXPECT_EQ(stack.force_at(0.199, 2).z(), 0);
+  EXPECT_NEAR(stack.force_at(0.15, 1).z(), 0, 1e-9);  // its sides may push it out sideways
+  EXPECT_NEAR(stack.force_at(0.199, 2).z(), 0, 1e-9);
 }
 
 TEST(Erosion, ATieToAFailedElementLetsGo) {

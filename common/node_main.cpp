@@ -1,5 +1,6 @@
 #include "common/node_main.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
@@ -7,6 +8,7 @@
 #include <optional>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 #include <omp.h>
 #include <sys/prctl.h>
 #include <unistd.h>
@@ -79,6 +81,18 @@ ExitCode print_keys(const NodeProgram& program) {
   if (program.read) program.read(document, Scenario{});
   std::cout << document.key_reference();
   return ExitCode::Done;
+}
+
+/// A wrong call, or a request for help: as text, or as an error object where --json was asked for.
+int usage_error(CLI::App& app, const CLI::ParseError& error,
+                const std::vector<std::string>& command) {
+  const bool is_json = std::find(command.begin(), command.end(), "--json") != command.end();
+  if (is_json && error.get_exit_code() != 0) {
+    const nlohmann::ordered_json object = {{"error", "usage"}, {"message", error.what()}};
+    std::cout << object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+    return static_cast<int>(ExitCode::UserError);
+  }
+  return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::UserError);
 }
 
 }  // namespace
@@ -154,8 +168,7 @@ int node_main(int argc, char** argv, const NodeProgram& program) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : static_cast<int>(ExitCode::UserError);
+    return usage_error(app, error, command);
   }
   return static_cast<int>(guarded(program.name, action));
 }

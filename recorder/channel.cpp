@@ -64,4 +64,16 @@ Series Channel::series() const {
   return out;
 }
 
+Series Channel::present() const {
+  std::size_t first = 0, end = samples.size();
+  while (first < end && !std::isfinite(samples[first])) ++first;
+  while (end > first && !std::isfinite(samples[end - 1])) --end;
+  Series out;
+  for (std::size_t i = first; i < end; ++i) {
+    out.t.push_back(time(i));
+    out.y.push_back(samples[i]);
+  }
+  return out;
+}
+
 }  // namespace crosswalk::recording

@@ -53,6 +53,9 @@ struct Channel {
   std::vector<double> samples;
   double time(std::size_t i) const { return t0 + static_cast<double>(i) * dt; }
   Series series() const;
+  /// From the first sample that is there to the last; one missing in between stays NaN, so that
+  /// every metric refuses it.
+  Series present() const;
 };
 
 }  // namespace crosswalk::recording

@@ -136,6 +136,16 @@ void Extraction::add_head() {
     out_.warnings.push_back("no head kinematics in the log");
     return;
   }
+  const auto broken = std::find_if(record_.head.begin(), record_.head.end(), [](const auto& entry) {
+    const HeadSample& s = entry.second;
+    return !s.X_WH.p.allFinite() || !s.V_WH.v.allFinite() || !s.V_WH.w.allFinite();
+  });
+  if (broken != record_.head.end()) {
+    out_.warnings.push_back(
+        fmt::format("the head's motion is not finite at {:.2f} ms: no filtered head signal, no "
+                    "injury metric",
+                    1e3 * (seconds(broken->first) - out_.t0)));
+  }
   const HeadMotion head(record_.head, out_.t0);
   if (head.is_resampled()) {
     out_.warnings.push_back(

@@ -146,17 +146,9 @@ HeadSignals head_signals(const std::vector<Channel>& channels) {
       if (c.name == stem + "_z") parts[2] = &c;
     }
     if (parts[0] == nullptr || parts[1] == nullptr || parts[2] == nullptr) return std::nullopt;
-    VectorSeries v;
-    for (std::size_t i = 0; i < parts[0]->samples.size(); ++i) {
-      const Vec3 value(parts[0]->samples[i], parts[1]->samples[i], parts[2]->samples[i]);
-      if (!value.allFinite()) continue;
-      v.t.push_back(parts[0]->time(i));
-      v.x.push_back(value.x());
-      v.y.push_back(value.y());
-      v.z.push_back(value.z());
-    }
-    if (v.t.size() < 2) return std::nullopt;
-    return v;
+    const Series x = parts[0]->present();
+    if (x.size() < 2) return std::nullopt;
+    return VectorSeries{x.t, x.y, parts[1]->present().y, parts[2]->present().y};
   };
   HeadSignals signals;
   signals.acceleration = vector("head_acceleration");

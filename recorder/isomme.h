@@ -37,6 +37,8 @@ struct MmeTest {
 /// First value of a key; nothing when absent or NOVALUE.
 std::optional<std::string> value_of(const MmeHeader& header, const std::string& key);
 
+/// True for a folder with a .mme file.
+bool is_isomme(const std::filesystem::path& folder);
 /// Throws UserError naming file and line.
 MmeTest read_isomme(const std::filesystem::path& folder);
 void write_isomme(const std::filesystem::path& folder, const MmeTest& test);
@@ -47,6 +49,9 @@ std::string mme_code(const std::string& channel_name);
 /// A run's channels (those with a code) as a test, units converted to SI.
 MmeTest mme_test(const std::string& name, const std::vector<Channel>& channels,
                  const MmeHeader& header);
+/// The other way: head and car channels of a test, whatever its dummy and filter class, under our
+/// names and units. Channels without a uniform time base or of other places are left out.
+std::vector<Channel> channels_of(const MmeTest& test);
 /// A result without time, such as HIC15.
 MmeChannel mme_constant(const std::string& code, const std::string& name, double value);
 

@@ -3,10 +3,12 @@
 // test object D (dummy; here a human body model) · position 0 · main location HEAD · fine location
 // CG · 00 · VH (50th percentile human male model) · physical dimension · direction · filter class.
 // Directions 1, 2, 3 are axes that do not follow SAE J211: the laboratory frame W.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "recorder/isomme.h"
+#include "recorder/signal.h"
 
 namespace crosswalk::recording {
 
@@ -61,6 +63,22 @@ constexpr std::array kUnits = {Unit{"mm", "m", 1000},
                                Unit{"J", "J", 1},
                                Unit{"1", "1", 1}};
 
+/// What a code measures: place, dimension and direction, without test object, dummy and filter
+/// class.
+std::string quantity_of(const std::string& code) {
+  const std::string place = code.substr(6, 2) == "CG" ? "00" : code.substr(6, 2);
+  return code.substr(2, 4) + place + code.substr(8, 2) + code.substr(12, 3);
+}
+
+/// Our channel of the same quantity; empty when there is none.
+std::string channel_like(const std::string& code) {
+  if (code.size() != 16) return {};
+  for (const Code& c : kCodes) {
+    if (quantity_of(code) == quantity_of(c.code)) return c.channel;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string mme_code(const std::string& channel_name) {
@@ -93,6 +111,21 @@ MmeTest mme_test(const std::string& name, const std::vector<Channel>& channels,
     test.channels.push_back(std::move(out));
   }
   return test;
+}
+
+std::vector<Channel> channels_of(const MmeTest& test) {
+  std::vector<Channel> channels;
+  for (const MmeChannel& c : test.channels) {
+    const std::string name = channel_like(c.code);
+    const auto unit =
+        std::find_if(kUnits.begin(), kUnits.end(), [&c](const Unit& u) { return c.unit == u.mme; });
+    if (name.empty() || unit == kUnits.end() || c.time.size() < 2 || !is_uniform(c.time)) continue;
+    Channel out{name, unit->ours, c.code, c.time.front(), 0, c.values};
+    out.dt = (c.time.back() - c.time.front()) / static_cast<double>(c.time.size() - 1);
+    for (double& value : out.samples) value *= unit->divisor;
+    channels.push_back(std::move(out));
+  }
+  return channels;
 }
 
 MmeChannel mme_constant(const std::string& code, const std::string& name, double value) {

@@ -152,21 +152,31 @@ void resolve_times(MmeTest& test, const fs::path& folder) {
     if (name.empty() || found == test.channels.end()) {
       fail(folder, 0, c.code + ": the reference channel '" + name + "'", "none");
     }
+    if (found->values.size() != c.values.size()) {
+      fail(folder, 0, fmt::format("{}: {} times", c.code, c.values.size()),
+           std::to_string(found->values.size()));
+    }
     c.time = found->values;
     c.is_constant = false;
   }
 }
 
-fs::path single_file(const fs::path& folder, const std::string& extension) {
-  if (fs::is_directory(folder)) {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      std::string found = entry.path().extension().string();
-      std::transform(found.begin(), found.end(), found.begin(),
-                     [](unsigned char ch) { return static_cast<char>(std::tolower(ch)); });
-      if (found == extension) return entry.path();
-    }
+/// The folder's file with this extension in any case of letters; empty when there is none.
+fs::path find_file(const fs::path& folder, const std::string& extension) {
+  if (!fs::is_directory(folder)) return {};
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::string found = entry.path().extension().string();
+    std::transform(found.begin(), found.end(), found.begin(),
+                   [](unsigned char ch) { return static_cast<char>(std::tolower(ch)); });
+    if (found == extension) return entry.path();
   }
-  fail(folder, 0, "a file *" + extension, "none");
+  return {};
+}
+
+fs::path single_file(const fs::path& folder, const std::string& extension) {
+  const fs::path file = find_file(folder, extension);
+  if (file.empty()) fail(folder, 0, "a file *" + extension, "none");
+  return file;
 }
 
 }  // namespace
@@ -178,6 +188,8 @@ std::optional<std::string> value_of(const MmeHeader& header, const std::string& 
   }
   return std::nullopt;
 }
+
+bool is_isomme(const fs::path& folder) { return !find_file(folder, ".mme").empty(); }
 
 MmeTest read_isomme(const fs::path& folder) {
   MmeTest test;
@@ -194,7 +206,11 @@ MmeTest read_isomme(const fs::path& folder) {
     const std::string code = trimmed(value.substr(0, slash));
     if (c.code.empty()) c.code = code;
     if (c.code != code) fail(list, 0, "channel " + number + " with code " + code, c.code);
-    if (slash != std::string::npos) c.name = trimmed(value.substr(slash + 1));
+    // The list's lines are cut at 80 characters: the channel's own file may say more.
+    if (slash != std::string::npos) {
+      const std::string listed = trimmed(value.substr(slash + 1));
+      if (!c.name.starts_with(listed)) c.name = listed;
+    }
     test.channels.push_back(std::move(c));
   }
   resolve_times(test, folder);

@@ -20,14 +20,14 @@ constexpr const char* kNoValue = "NOVALUE";
 
 class Lines {
  public:
-  /// A value too long for one line goes on in further Comments lines.
+  /// A comment too long for one line goes on in further ones; any other value is cut.
   void header(const std::string& key, std::string value) {
     if (value.empty()) value = kNoValue;
-    const std::size_t room = kLineWidth - kKeyWidth - 1;
-    out_ += fmt::format("{:<28}:{}\r\n", key, value.substr(0, room));
-    for (std::size_t at = room; at < value.size(); at += room) {
-      out_ += fmt::format("{:<28}:{}\r\n", "Comments", value.substr(at, room));
-    }
+    do {
+      const std::size_t size = fitting(value);
+      out_ += fmt::format("{:<28}:{}\r\n", key, value.substr(0, size));
+      value.erase(0, size);
+    } while (key == "Comments" && !value.empty());
   }
   void number(double value) {
     out_ +=
@@ -46,6 +46,15 @@ class Lines {
   }
 
  private:
+  /// Bytes of a value that fit a line, whole characters of UTF-8 only.
+  static std::size_t fitting(const std::string& value) {
+    std::size_t size = std::min(value.size(), kLineWidth - kKeyWidth - 1);
+    while (size > 0 && size < value.size() &&
+           (static_cast<unsigned char>(value[size]) & 0xC0U) == 0x80U) {
+      --size;
+    }
+    return size;
+  }
   std::string out_;
 };
 

@@ -161,7 +161,15 @@ ReferenceData read_reference(const fs::path& folder) {
     }
   }
   std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) data.curves.push_back(read_reference_curve(file));
+  for (const fs::path& file : files) {
+    try {
+      data.curves.push_back(read_reference_curve(file));
+    } catch (const SignalError& error) {
+      data.faults.emplace_back(error.what());
+    } catch (const UserError& error) {
+      data.faults.emplace_back(error.what());
+    }
+  }
   return data;
 }
 

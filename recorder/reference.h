@@ -51,6 +51,7 @@ struct ReferenceData {
   std::string scores_source;
   std::vector<ReferenceFact> facts;
   std::vector<ReferenceCurve> curves;
+  std::vector<std::string> faults;  ///< curve files that could not be read, and why
 };
 
 /// One weighted signal of a rating set.

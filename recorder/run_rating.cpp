@@ -11,17 +11,6 @@ namespace crosswalk::recording {
 
 namespace {
 
-/// The stretch of a channel that has samples.
-Series present(const Channel& channel) {
-  Series s;
-  for (std::size_t i = 0; i < channel.samples.size(); ++i) {
-    if (!std::isfinite(channel.samples[i])) continue;
-    s.t.push_back(channel.time(i));
-    s.y.push_back(channel.samples[i]);
-  }
-  return s;
-}
-
 const Channel* find(const std::vector<Channel>& channels, const std::string& name) {
   for (const Channel& channel : channels) {
     if (channel.name == name) return &channel;
@@ -46,7 +35,7 @@ SignalRating rate_signal(const RatedSignal& signal, const std::string& reference
       throw SignalError(SignalFault::BadParameter, fmt::format("reference in {}, channel in {}",
                                                                reference_unit, channel.unit));
     }
-    Series simulation = present(channel);
+    Series simulation = channel.present();
     rating.cora = cora(reference, simulation, parameters.cora, sigma);
     Series aligned = reference;
     align_grids(aligned, simulation);
@@ -93,7 +82,7 @@ std::vector<SignalRating> rate_against_run(const std::vector<RatedSignal>& set,
       continue;
     }
     ratings.push_back(
-        rate_signal(signal, reference_name, present(*other), other->unit, {}, *mine, parameters));
+        rate_signal(signal, reference_name, other->present(), other->unit, {}, *mine, parameters));
   }
   return ratings;
 }

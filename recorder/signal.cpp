@@ -20,6 +20,8 @@ constexpr double kRateOverCfc = 10.0;     // minimum sampling rate over CFC [SAE
 constexpr double kPaddingTime = 0.01;     // s
 constexpr std::size_t kPaddingMin = 100;  // samples
 constexpr std::size_t kStartMean = 10;    // samples
+constexpr double kCountSlack = 1e-6;      // of a step
+constexpr double kMostSamples = 2e6;
 
 std::vector<double> padded(std::span<const double> x, std::size_t add) {
   const std::size_t n = x.size();
@@ -100,6 +102,17 @@ bool is_uniform(std::span<const double> t, double tolerance) {
     if (std::abs(t[i] - t[i - 1] - mean) > tolerance * mean) return false;
   }
   return true;
+}
+
+std::size_t sample_count(double from, double to, double dt) {
+  const double steps = std::floor((to - from) / dt + kCountSlack);
+  if (!(steps < kMostSamples)) {
+    throw SignalError(SignalFault::BadParameter,
+                      fmt::format("{} s .. {} s in steps of {} s are too many samples (more than "
+                                  "{:.0f})",
+                                  from, to, dt, kMostSamples));
+  }
+  return static_cast<std::size_t>(steps) + 1;
 }
 
 std::vector<double> resample(std::span<const double> t, std::span<const double> y, double t_min,

@@ -37,6 +37,10 @@ double median_step(std::span<const double> t);
 /// True when every step agrees with the mean step within `tolerance` of it.
 bool is_uniform(std::span<const double> t, double tolerance = 1e-3);
 
+/// Samples of a grid of step dt from `from` on that lie up to `to`, against rounding up to 1e-6 of
+/// a step beyond. Throws bad_parameter above two million: a step that small is a mistake.
+std::size_t sample_count(double from, double to, double dt);
+
 /// Linear interpolation at t_min + i * dt, i < n; outside the record the end values are held only
 /// against rounding (callers never ask for more than half a step beyond the ends).
 std::vector<double> resample(std::span<const double> t, std::span<const double> y, double t_min,

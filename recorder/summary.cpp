@@ -187,6 +187,8 @@ Summary summarize(const RunRecord& record, const RunChannels& channels,
                                      event.text));
   }
   if (reference) {
+    for (const std::string& fault : reference->faults)
+      s.warnings.push_back("a curve of the test is left out: " + fault);
     // A run cut short before the head met the car says nothing about the head.
     const bool is_judged = s.is_complete || s.head_contact;
     for (const Band& band : reference->bands) {

@@ -35,7 +35,8 @@ Action define_rate(CLI::App& app) {
                  "PAIR.csv (columns t,ref,sim[,sigma]) or REF.csv SIM.csv (columns t,value)")
       ->expected(0, 2);
   app.add_option("--run", r.run, "rate this run: against its test's curves, or");
-  app.add_option("--reference-run", r.reference_run, "against the channels of this one");
+  app.add_option("--reference-run", r.reference_run,
+                 "against the channels of this one, or of an ISO-MME test");
   app.add_option("--parameters", r.parameters,
                  "JSON object with parameters under the method's own names");
   app.add_option("--set", r.set,
@@ -60,7 +61,7 @@ Action define_rate(CLI::App& app) {
 Action define_injury(CLI::App& app) {
   auto parsed = std::make_shared<Parsed<InjuryRequest>>();
   app.add_option("source", parsed->request.source,
-                 "CSV of head signals (columns t,ax,ay,az and more), or a run")
+                 "CSV of head signals (columns t,ax,ay,az and more), a run, or an ISO-MME test")
       ->required();
   app.add_flag("--no-filter", parsed->request.is_filtered, "the signals are filtered already");
   app.add_flag("--json", parsed->is_json, "one JSON object in full precision");

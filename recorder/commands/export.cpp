@@ -63,6 +63,10 @@ MmeTest as_isomme(const fs::path& run, const std::vector<Channel>& channels) {
 }  // namespace
 
 ExitCode export_run(const ExportRequest& request) {
+  if (!fs::is_directory(request.run)) {
+    throw UserError(
+        Problem{{request.run.string()}, "export", "the folder of a run", "no folder", {}});
+  }
   const fs::path out = request.out.empty() ? request.run / "export" : request.out;
   fs::create_directories(out);
   if (request.format == "motion" || request.format == "impact_motion") {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -6,6 +7,7 @@
 #include "recorder/commands/commands.h"
 #include "recorder/csv_table.h"
 #include "recorder/head_motion.h"
+#include "recorder/isomme.h"
 #include "recorder/scoring/score_json.h"
 
 namespace crosswalk::recording {
@@ -37,6 +39,54 @@ HeadSignals signals_of(const CsvTable& table) {
                       table.file + ": no columns ax,ay,az or wx,wy,wz or alx,aly,alz or fx,fz,my");
   }
   return signals;
+}
+
+/// Head signals of an ISO-MME test; those of filter class 0 (none) are filtered here.
+HeadSignals signals_of(const MmeTest& test, bool is_filtered) {
+  const std::vector<Channel> channels = channels_of(test);
+  HeadSignals signals = head_signals(channels);
+  const auto is_raw = [&channels, is_filtered](const std::string& name) {
+    const auto found = std::find_if(channels.begin(), channels.end(),
+                                    [&name](const Channel& c) { return c.name == name; });
+    return !is_filtered && found != channels.end() && found->description.ends_with('0');
+  };
+  HeadSignals raw;
+  if (is_raw("head_acceleration_x")) raw.acceleration = signals.acceleration;
+  if (is_raw("head_angular_velocity_x")) raw.angular_velocity = signals.angular_velocity;
+  raw = filtered(raw);
+  if (raw.acceleration) signals.acceleration = raw.acceleration;
+  if (raw.angular_velocity) {
+    signals.angular_velocity = raw.angular_velocity;
+    signals.angular_acceleration = raw.angular_acceleration;
+  }
+  signals.notes = raw.notes;
+  if (!signals.acceleration && !signals.angular_velocity) {
+    throw SignalError(SignalFault::Shape, test.name +
+                                              ": no head acceleration or angular velocity "
+                                              "in three axes on a uniform time base");
+  }
+  return signals;
+}
+
+HeadSignals read_signals(const InjuryRequest& request) {
+  if (is_isomme(request.source))
+    return signals_of(read_isomme(request.source), request.is_filtered);
+  // A run's channels are filtered already, at the rate they were recorded with.
+  if (std::filesystem::is_directory(request.source))
+    return head_signals(channels_of_run(request.source));
+  const HeadSignals signals = signals_of(read_csv(request.source));
+  return request.is_filtered ? signals : filtered(signals);
+}
+
+/// What filter the metrics rest on.
+const char* filter_text(const InjuryRequest& request) {
+  if (is_isomme(request.source)) {
+    return request.is_filtered
+               ? "as in the file"
+               : "as in the file; CFC 1000 linear, CFC 60 angular (ISO 6487) where it has none";
+  }
+  const bool is_raw = !std::filesystem::is_directory(request.source) && request.is_filtered;
+  return is_raw ? "none" : "CFC 1000 linear, CFC 60 angular (ISO 6487)";
 }
 
 std::string window_text(const WindowMaximum& w) {
@@ -93,19 +143,14 @@ void print_card(const ScoreCard& card) {
 }  // namespace
 
 ExitCode injury(const InjuryRequest& request, OutputForm form) {
-  const bool is_run = std::filesystem::is_directory(request.source);
-  // A run's channels are filtered already, at the rate they were recorded with.
-  HeadSignals signals =
-      is_run ? head_signals(channels_of_run(request.source)) : signals_of(read_csv(request.source));
-  if (!is_run && !request.is_filtered) signals = filtered(signals);
-  const ScoreCard card = score_card(signals);
+  const ScoreCard card = score_card(read_signals(request));
   if (form == OutputForm::Json) {
     nlohmann::ordered_json out = to_json(card);
-    out["filter"] =
-        !is_run && request.is_filtered ? "none" : "CFC 1000 linear, CFC 60 angular (ISO 6487)";
+    out["filter"] = filter_text(request);
     fmt::print("{}\n", out.dump(1));
   } else {
     print_card(card);
+    fmt::print("filter: {}\n", filter_text(request));
   }
   return ExitCode::Done;
 }

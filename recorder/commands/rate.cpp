@@ -95,7 +95,7 @@ ExitCode rate_iso18571(Pair pair, const json& overrides, OutputForm form) {
 json read_parameters(const std::filesystem::path& path) {
   if (path.empty()) return json::object();
   std::ifstream in(path);
-  if (!in) {
+  if (!in || std::filesystem::is_directory(path)) {
     throw SignalError(SignalFault::BadParameter, "parameters: cannot read " + path.string());
   }
   try {

@@ -8,6 +8,7 @@
 #include "recorder/commands/commands.h"
 #include "recorder/csv_table.h"
 #include "recorder/export_csv.h"
+#include "recorder/isomme.h"
 #include "recorder/run_rating.h"
 #include "recorder/scoring/score_json.h"
 
@@ -30,6 +31,8 @@ std::vector<SignalRating> against_test(const RateRequest& request,
                                        const RatingParameters& parameters) {
   const std::string scenario = scenario_of(request.run);
   const auto reference = reference_data(scenario);
+  if (reference && !reference->faults.empty())
+    throw SignalError(SignalFault::BadParameter, "curve of the test: " + reference->faults.front());
   if (!reference || reference->curves.empty()) {
     Problem problem;
     problem.place.file = request.run.string();
@@ -68,6 +71,7 @@ void print_table(const std::vector<SignalRating>& ratings, RatingMethod method) 
 }  // namespace
 
 std::vector<Channel> channels_of_run(const fs::path& run) {
+  if (is_isomme(run)) return channels_of(read_isomme(run));
   const RunDirectory directory(run);
   if (fs::exists(directory.channels())) return read_channels_csv(directory.channels());
   return analyze_log(directory.signals()).channels.channels;

@@ -29,6 +29,9 @@ ExitCode reported(OutputForm form, const std::function<ExitCode()>& command) {
     return fail(form, error.code(), error.what());
   } catch (const UserError& error) {
     return fail(form, "input", error.what());
+  } catch (
+      const std::filesystem::filesystem_error& error) {  // a folder that cannot be made or read
+    return fail(form, "input", error.what());
   }
 }
 

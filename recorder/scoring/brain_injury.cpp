@@ -23,6 +23,12 @@ double peak_to_peak(const std::vector<double>& x) {
   return *high - *low;
 }
 
+void require_valid(const VectorSeries& v, const std::string& name) {
+  recording::require_valid(v.t, v.x, name + " x");
+  recording::require_valid(v.t, v.y, name + " y");
+  recording::require_valid(v.t, v.z, name + " z");
+}
+
 double bric_of(const std::array<double, 3>& peak, const std::array<double, 3>& critical) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) sum += std::pow(peak[i] / critical[i], 2);
@@ -32,6 +38,7 @@ double bric_of(const std::array<double, 3>& peak, const std::array<double, 3>& c
 }  // namespace
 
 Bric bric(const VectorSeries& w) {
+  require_valid(w, "angular velocity");
   // rad/s [takhounts2013]
   constexpr std::array<double, 3> kCsdm{66.20, 59.10, 44.25};
   constexpr std::array<double, 3> kMps{66.30, 53.80, 41.50};
@@ -41,6 +48,8 @@ Bric bric(const VectorSeries& w) {
 }
 
 double ubric(const VectorSeries& w, const VectorSeries& alpha, UbricPeak peak) {
+  require_valid(w, "angular velocity");
+  require_valid(alpha, "angular acceleration");
   constexpr std::array<double, 3> kOmega{211.0, 171.0, 115.0};       // rad/s [gabler2018]
   constexpr std::array<double, 3> kAlpha{20000.0, 10300.0, 7760.0};  // rad/s2
   const std::array<const std::vector<double>*, 3> ws{&w.x, &w.y, &w.z};

@@ -12,8 +12,7 @@ namespace crosswalk::recording {
 
 namespace {
 
-constexpr double kTie = 1e-12;        // a later shift must beat the best correlation by more
-constexpr double kCountSlack = 1e-6;  // of a step, against rounding when counting samples
+constexpr double kTie = 1e-12;  // a later shift must beat the best correlation by more
 
 void require_parameters(const CoraParameters& p) {
   const auto reject = [](const std::string& why) {
@@ -68,7 +67,7 @@ Interval automatic_interval(const Series& x, Interval common, const CoraParamete
 }
 
 Interval rated_interval(const Series& x, const Series& y, const CoraParameters& p) {
-  Interval common{std::max(x.t.front(), y.t.front()), std::min(x.t.back(), y.t.back())};
+  const Interval common{std::max(x.t.front(), y.t.front()), std::min(x.t.back(), y.t.back())};
   const auto require_positive = [](Interval i, const char* what) {
     if (i.to <= i.from) {
       throw SignalError(SignalFault::NoOverlap,
@@ -76,13 +75,14 @@ Interval rated_interval(const Series& x, const Series& y, const CoraParameters& 
     }
   };
   require_positive(common, "common time of the signals");
-  if (p.interval == CoraInterval::Automatic) common = automatic_interval(x, common, p);
-  if (p.interval == CoraInterval::Manual) {
-    if (p.t_min) common.from = std::max(common.from, *p.t_min);
-    if (p.t_max) common.to = std::min(common.to, *p.t_max);
+  Interval rated = common;
+  if (p.interval == CoraInterval::Automatic) rated = automatic_interval(x, common, p);
+  if (p.interval != CoraInterval::Full) {  // an edge that is given stands before an automatic one
+    if (p.t_min) rated.from = std::max(common.from, *p.t_min);
+    if (p.t_max) rated.to = std::min(common.to, *p.t_max);
   }
-  require_positive(common, "rated interval");
-  return common;
+  require_positive(rated, "rated interval");
+  return rated;
 }
 
 double corridor_rating(const std::vector<double>& x, const std::vector<double>& y,
@@ -130,8 +130,8 @@ Correlation correlate(const std::vector<double>& x, const std::vector<double>& y
 
 void cross_correlation_rating(const std::vector<double>& x, const std::vector<double>& y,
                               const CoraParameters& p, CoraResult& r) {
-  const auto M =
-      static_cast<int>(std::floor((1.0 - p.overlap_min) * static_cast<double>(x.size()) + 1e-9));
+  const auto n = static_cast<double>(x.size());
+  const auto M = static_cast<int>(std::min(std::floor((1.0 - p.overlap_min) * n + 1e-9), n - 1));
   Correlation best = correlate(x, y, 0);
   r.m = 0;
   for (int shift = 1; shift <= M; ++shift) {
@@ -176,8 +176,7 @@ CoraResult cora(const Series& reference, const Series& simulation, const CoraPar
   const Interval interval = rated_interval(reference, simulation, p);
   CoraResult r;
   r.dt = p.dt ? *p.dt : std::min(median_step(reference.t), median_step(simulation.t));
-  r.n =
-      static_cast<std::size_t>(std::floor((interval.to - interval.from) / r.dt + kCountSlack)) + 1;
+  r.n = sample_count(interval.from, interval.to, r.dt);
   if (r.n < 2) {
     throw SignalError(SignalFault::TooShort, "the rated interval holds fewer than 2 samples");
   }

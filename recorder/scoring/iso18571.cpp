@@ -173,9 +173,9 @@ std::string grade(double R) {
 }  // namespace
 
 void align_grids(Series& reference, Series& simulation) {
-  if (reference.t == simulation.t) return;
   require_valid(reference, "reference");
   require_valid(simulation, "simulation");
+  if (reference.t == simulation.t && is_uniform(reference.t)) return;
   const double from = std::max(reference.t.front(), simulation.t.front());
   const double to = std::min(reference.t.back(), simulation.t.back());
   if (to <= from) {
@@ -183,7 +183,7 @@ void align_grids(Series& reference, Series& simulation) {
                       fmt::format("common time of the signals: {} s .. {} s is empty", from, to));
   }
   const double dt = std::min(median_step(reference.t), median_step(simulation.t));
-  const auto n = static_cast<std::size_t>(std::floor((to - from) / dt + 1e-6)) + 1;
+  const std::size_t n = sample_count(from, to, dt);
   Series x, y;
   x.y = resample(reference.t, reference.y, from, dt, n);
   y.y = resample(simulation.t, simulation.y, from, dt, n);

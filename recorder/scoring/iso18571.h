@@ -30,12 +30,12 @@ struct Iso18571Result {
   std::string grade;                     ///< excellent, good, fair, poor
 };
 
-/// Both series must have the same times; at least 9 samples.
+/// Both series must stand on the same uniform times (align_grids); at least 9 samples.
 Iso18571Result iso18571(const Series& reference, const Series& simulation,
                         const Iso18571Parameters& parameters);
 
-/// Puts two series onto one grid: kept when their times agree, else resampled over their common
-/// time with the smaller median step. Throws no_overlap.
+/// Puts two series onto one uniform grid: kept when their times agree and are uniform, else
+/// resampled over their common time with the smaller median step. Throws no_overlap.
 void align_grids(Series& reference, Series& simulation);
 
 }  // namespace crosswalk::recording

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "common/units.h"
 
 namespace crosswalk::recording {
@@ -30,9 +32,29 @@ Grid uniform_grid(const std::vector<double>& t) {
   g.n = t.size();
   g.is_kept = is_uniform(t);
   g.dt = g.is_kept ? (t.back() - t.front()) / static_cast<double>(t.size() - 1) : median_step(t);
-  if (!g.is_kept)
-    g.n = static_cast<std::size_t>(std::floor((t.back() - t.front()) / g.dt + 1e-6)) + 1;
+  if (!g.is_kept) g.n = sample_count(t.front(), t.back(), g.dt);
   return g;
+}
+
+std::vector<double> grid_times(std::vector<double> t, const Grid& g) {
+  if (g.is_kept) return t;
+  t.resize(g.n);
+  for (std::size_t i = 0; i < g.n; ++i) t[i] = g.t0 + static_cast<double>(i) * g.dt;
+  return t;
+}
+
+/// What a reader of the result must know about the sampling of a filtered signal.
+void note_sampling(std::vector<std::string>& notes, const char* name, const std::vector<double>& t,
+                   double cfc) {
+  const Grid g = uniform_grid(t);
+  if (!g.is_kept) {
+    notes.push_back(
+        fmt::format("{}: samples are irregular, resampled to one per {:.6g} ms", name, 1e3 * g.dt));
+  }
+  if (!is_sampled_for_cfc(cfc, g.dt)) {
+    notes.push_back(fmt::format("{}: {:.0f} samples per second, CFC {:g} asks for {:g}", name,
+                                1 / g.dt, cfc, 10 * cfc));
+  }
 }
 
 std::vector<double> filtered(const std::vector<double>& t, const std::vector<double>& y,
@@ -43,15 +65,21 @@ std::vector<double> filtered(const std::vector<double>& t, const std::vector<dou
 VectorSeries filtered(const VectorSeries& v, double cfc, FilterForm form) {
   const Grid g = uniform_grid(v.t);
   VectorSeries out;
-  out.t = v.t;
-  if (!g.is_kept) {
-    out.t.resize(g.n);
-    for (std::size_t i = 0; i < g.n; ++i) out.t[i] = g.t0 + static_cast<double>(i) * g.dt;
-  }
+  out.t = grid_times(v.t, g);
   out.x = filtered(v.t, v.x, g, cfc, form);
   out.y = filtered(v.t, v.y, g, cfc, form);
   out.z = filtered(v.t, v.z, g, cfc, form);
   return out;
+}
+
+NeckLoads filtered(const NeckLoads& n, FilterForm form, std::vector<std::string>& notes) {
+  recording::require_valid(n.t, n.fx, "neck force x");
+  recording::require_valid(n.t, n.fz, "neck force z");
+  recording::require_valid(n.t, n.my, "neck moment y");
+  note_sampling(notes, "neck loads", n.t, 1000);
+  const Grid g = uniform_grid(n.t);
+  return {grid_times(n.t, g), filtered(n.t, n.fx, g, 1000, form),
+          filtered(n.t, n.fz, g, 1000, form), filtered(n.t, n.my, g, 600, form)};
 }
 
 VectorSeries derivative(const VectorSeries& v) {
@@ -123,38 +151,31 @@ HeadSignals filtered(const HeadSignals& signals, FilterForm form) {
   HeadSignals out = signals;
   if (signals.acceleration) {
     require_valid(*signals.acceleration, "acceleration");
+    note_sampling(out.notes, "acceleration", signals.acceleration->t, 1000);
     out.acceleration = filtered(*signals.acceleration, 1000, form);
   }
   if (signals.angular_velocity) {
     require_valid(*signals.angular_velocity, "angular velocity");
+    note_sampling(out.notes, "angular velocity", signals.angular_velocity->t, 60);
     out.angular_velocity = filtered(*signals.angular_velocity, 60, form);
     out.angular_acceleration = derivative(*out.angular_velocity);
+    out.notes.push_back(
+        signals.angular_acceleration
+            ? "the given angular acceleration is not used: the derivative of the filtered "
+              "angular velocity stands for it"
+            : "angular acceleration is the derivative of the filtered angular velocity");
   } else if (signals.angular_acceleration) {
     require_valid(*signals.angular_acceleration, "angular acceleration");
+    note_sampling(out.notes, "angular acceleration", signals.angular_acceleration->t, 60);
     out.angular_acceleration = filtered(*signals.angular_acceleration, 60, form);
   }
-  if (signals.neck) {
-    const NeckLoads& n = *signals.neck;
-    recording::require_valid(n.t, n.fx, "neck force x");
-    recording::require_valid(n.t, n.fz, "neck force z");
-    recording::require_valid(n.t, n.my, "neck moment y");
-    const Grid g = uniform_grid(n.t);
-    NeckLoads f;
-    f.t = n.t;
-    if (!g.is_kept) {
-      f.t.resize(g.n);
-      for (std::size_t i = 0; i < g.n; ++i) f.t[i] = g.t0 + static_cast<double>(i) * g.dt;
-    }
-    f.fx = filtered(n.t, n.fx, g, 1000, form);
-    f.fz = filtered(n.t, n.fz, g, 1000, form);
-    f.my = filtered(n.t, n.my, g, 600, form);
-    out.neck = f;
-  }
+  if (signals.neck) out.neck = filtered(*signals.neck, form, out.notes);
   return out;
 }
 
 ScoreCard score_card(const HeadSignals& signals) {
   ScoreCard card;
+  card.notes = signals.notes;
   if (signals.acceleration) {
     require_valid(*signals.acceleration, "acceleration");
     card.linear = linear_scores({signals.acceleration->t, signals.acceleration->magnitude()});
@@ -168,9 +189,15 @@ ScoreCard score_card(const HeadSignals& signals) {
       card.notes.push_back("angular acceleration is the derivative of the angular velocity");
     }
     card.rotation = rotation_scores(*signals.angular_velocity, *alpha);
+  } else if (alpha) {
+    card.notes.push_back("no angular velocity: no rotational metric is computed");
   }
   if (card.linear && card.rotation && alpha->t == signals.acceleration->t) {
     card.combined = combined_scores(*signals.acceleration, *alpha, *card.linear, *card.rotation);
+  }
+  if (card.linear && card.rotation && !card.combined) {
+    card.notes.push_back(
+        "linear and angular signals differ in time: no metric of both (GAMBIT, HIP, KLC, HARM)");
   }
   if (signals.neck) card.neck = neck_injury(*signals.neck, {});
   add_risks(card);

@@ -91,6 +91,31 @@ bool assign(const Table& table, Parameters& parameters, const std::string& key, 
   return false;
 }
 
+/// Keys of CORA's control file whose values are words or act on the interval. False: not one.
+bool assign_control_file_key(CoraParameters& p, const std::string& key, const json& value) {
+  if (key == "T_MIN" || key == "T_MAX") {
+    if (value == "automatic") {
+      p.interval = CoraInterval::Automatic;
+      return true;
+    }
+    (key == "T_MIN" ? p.t_min : p.t_max) = number(key, value);
+    return true;
+  }
+  if (key == "Y_NORM") {
+    if (value != "extremum") p.Y_norm = number(key, value);
+    return true;
+  }
+  if (key == "WF_NORM") {
+    if (value != "YES") bad("WF_NORM: only YES, weights are always normalised");
+    return true;
+  }
+  if (key == "MIN_NORM") {
+    if (number(key, value) != 0) bad("MIN_NORM: only 0 (off); give Y_norm for a weak axis");
+    return true;
+  }
+  return false;
+}
+
 template <typename Table>
 std::vector<std::string> names(const Table& table) {
   std::vector<std::string> out;
@@ -235,7 +260,7 @@ CoraParameters cora_parameters(const json& object) {
       p.interval = interval(value);
       continue;
     }
-    if (assign(kCora, p, key, value)) continue;
+    if (assign(kCora, p, key, value) || assign_control_file_key(p, key, value)) continue;
     bool is_known = false;
     for (std::size_t i = 0; i < std::size(kOptional); ++i) {
       if (key != kOptionalNames[i]) continue;
@@ -243,8 +268,13 @@ CoraParameters cora_parameters(const json& object) {
       if (!value.is_null()) p.*kOptional[i] = number(key, value);
     }
     std::vector<std::string> known = names(kCora);
-    known.insert(known.end(), {"interval", "t_min", "t_max", "dt", "Y_norm"});
+    known.insert(known.end(), {"interval", "t_min", "t_max", "dt", "Y_norm", "T_MIN", "T_MAX",
+                               "Y_NORM", "WF_NORM", "MIN_NORM"});
     if (!is_known) unknown(key, known);
+  }
+  if (p.interval == CoraInterval::Full && (p.t_min || p.t_max)) {
+    if (object.contains("interval")) bad("interval: full, but an edge of the interval is given");
+    p.interval = CoraInterval::Manual;
   }
   return p;
 }

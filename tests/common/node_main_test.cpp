@@ -132,6 +132,12 @@ TEST_F(NodeMain, UsageErrorsExitWithTwo) {
   EXPECT_EQ(call({"--help"}), 0);
 }
 
+TEST_F(NodeMain, UsageErrorsAreAnObjectWithJson) {
+  EXPECT_EQ(call({"run", "--json"}), 2);
+  EXPECT_THAT(stdout_, HasSubstr("\"error\": \"usage\""));
+  EXPECT_EQ(call({"--help", "--json"}), 0);
+}
+
 TEST_F(NodeMain, FurtherCommandsParseTheirOptions) {
   int value = 0;
   program_.commands.push_back({"solve", "Solves.", [&](CLI::App& options) {

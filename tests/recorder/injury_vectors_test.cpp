@@ -110,15 +110,20 @@ TEST(RotationVectors, EveryCaseMatches) {
   }
 }
 
+NeckParameters neck_parameters(const nlohmann::json& p) {
+  return {p["e_m"], p["Fzt"], p["Fzc"], p["Mf"], p["Me"], p["nkm_F"], p["nkm_Mf"], p["nkm_Me"]};
+}
+
 TEST(NeckVectors, EveryCaseMatches) {
   const nlohmann::json vectors = expected("neck");
   const double relative = vectors["tolerance"]["relative"];
   for (const auto& item : vectors["cases"]) {
     const CsvTable table = read_csv(vector_folder("neck") / item["file"].get<std::string>());
-    HeadSignals signals;
-    signals.neck =
-        NeckLoads{table.column("t"), table.column("fx"), table.column("fz"), table.column("my")};
-    const nlohmann::json found = nlohmann::json(to_json(score_card(signals))).flatten();
+    ScoreCard card;
+    card.neck =
+        neck_injury({table.column("t"), table.column("fx"), table.column("fz"), table.column("my")},
+                    neck_parameters(vectors["parameters"]));
+    const nlohmann::json found = nlohmann::json(to_json(card)).flatten();
     const nlohmann::json wanted = item["expected"].flatten();
     for (const auto& [key, value] : wanted.items()) {
       EXPECT_TRUE(is_close(found.at(key), value, relative)) << item["name"] << key;

@@ -71,9 +71,12 @@ struct IsoMme : ::testing::Test {
               -0.001,
               5e-5,
               {0.1, 1.0 / 3, -2e-17, std::nan("")}};
+    Channel r = a;
+    r.name = "head_angular_acceleration_resultant";  // longer than a line of the list takes
+    r.unit = "radps2";
     Channel d{"head_cog_y", "mm", "displacement", -0.001, 5e-5, {1, 2, 3, 4}};
     Channel none{"mb_kinetic_energy", "J", "no code", 0, 1, {1, 2}};
-    MmeTest test = mme_test("TEST01", {a, d, none}, {{"Title", "a run"}});
+    MmeTest test = mme_test("TEST01", {a, d, none, r}, {{"Title", "a run"}});
     test.channels.push_back(mme_constant("D0HICRCG15VH00RX", "HIC15", 689.0518434038969));
     return test;
   }
@@ -83,10 +86,11 @@ TEST_F(IsoMme, WhatIsWrittenComesBack) {
   const MmeTest test = sample();
   write_isomme(folder, test);
   const MmeTest back = read_isomme(folder);
-  ASSERT_EQ(back.channels.size(), 3U);
+  ASSERT_EQ(back.channels.size(), 4U);
   EXPECT_EQ(value_of(back.header, "Title"), "a run");
-  for (std::size_t c = 0; c < 3; ++c) {
+  for (std::size_t c = 0; c < 4; ++c) {
     EXPECT_EQ(back.channels[c].code, test.channels[c].code);
+    EXPECT_EQ(back.channels[c].name, test.channels[c].name);
     EXPECT_EQ(back.channels[c].unit, test.channels[c].unit);
     ASSERT_EQ(back.channels[c].values.size(), test.channels[c].values.size());
     for (std::size_t i = 0; i < test.channels[c].values.size(); ++i) {
@@ -134,6 +138,34 @@ TEST_F(IsoMme, DamagedFilesAreRefusedByName) {
   std::ofstream(folder / "Channel/TEST01.001", std::ios::app) << "not a number\r\n";
   EXPECT_THROW(read_isomme(folder), UserError);
   EXPECT_THROW(read_isomme("/nowhere"), UserError);
+}
+
+/// A dummy's raw channel (Hybrid III, no filter) is our head acceleration; other places are not.
+TEST(IsoMmeCodes, OtherDummiesAndFiltersAreTheSameQuantity) {
+  const auto channel = [](const char* code, const char* unit) {
+    return MmeChannel{code, "", unit, false, {0, 1e-4, 2e-4}, {1, 2, 3}, {}};
+  };
+  MmeTest test{"T",
+               {},
+               {channel("11HEAD0000H3ACX0", "m/(s*s)"), channel("D0HEADCG00VHDS20", "m"),
+                channel("11CHST0000H3ACXA", "m/(s*s)"), channel("11HEAD0000H3ACYA", "g")}};
+  const std::vector<Channel> found = channels_of(test);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].name, "head_acceleration_x");
+  EXPECT_EQ(found[1].name, "head_cog_y");
+  EXPECT_EQ(found[1].unit, "mm");
+  EXPECT_DOUBLE_EQ(found[1].samples[2], 3000);
+  EXPECT_DOUBLE_EQ(found[1].dt, 1e-4);
+}
+
+TEST_F(IsoMme, ChannelsComeBackUnderOurNames) {
+  write_isomme(folder, sample());
+  EXPECT_TRUE(is_isomme(folder));
+  const std::vector<Channel> back = channels_of(read_isomme(folder));
+  ASSERT_EQ(back.size(), 3U);
+  EXPECT_EQ(back[1].name, "head_cog_y");
+  EXPECT_EQ(back[1].samples, (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_DOUBLE_EQ(back[1].t0, -0.001);
 }
 
 TEST(IsoMmeCodes, AreSixteenCharacters) {

@@ -3,11 +3,13 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "common/units.h"
 #include "recorder/scoring/cora.h"
 #include "recorder/scoring/iso18571.h"
 #include "recorder/scoring/score_card.h"
+#include "recorder/scoring/score_json.h"
 #include "recorder/signal.h"
 
 namespace crosswalk::recording {
@@ -88,6 +90,46 @@ TEST(Iso18571, ScaleSignAndTimeOriginDoNotMatter) {
   // Rounding decides near-ties of the warping path, hence 1e-9.
   EXPECT_NEAR(iso18571(mapped(x, 3, 0), mapped(y, 3, 0), {}).R, R, 1e-9);
   EXPECT_NEAR(iso18571(mapped(x, -1, 2), mapped(y, -1, 2), {}).R, R, 1e-9);
+}
+
+TEST(Cora, ControlFileKeysOfTheIntervalAreUnderstood) {
+  EXPECT_EQ(cora_parameters({{"T_MIN", "automatic"}, {"T_MAX", "automatic"}}).interval,
+            CoraInterval::Automatic);
+  const CoraParameters manual = cora_parameters({{"T_MIN", 0.01}, {"WF_NORM", "YES"}});
+  EXPECT_EQ(manual.interval, CoraInterval::Manual);
+  EXPECT_EQ(manual.t_min, 0.01);
+  EXPECT_EQ(cora_parameters({{"t_max", 0.1}}).interval, CoraInterval::Manual);
+  EXPECT_FALSE(cora_parameters({{"Y_NORM", "extremum"}}).Y_norm);
+  EXPECT_THROW(cora_parameters({{"interval", "full"}, {"t_min", 0.1}}), SignalError);
+  EXPECT_THROW(cora_parameters({{"WF_NORM", "NO"}}), SignalError);
+  EXPECT_THROW(cora_parameters({{"MIN_NORM", 0.3}}), SignalError);
+}
+
+/// A given edge stands, the other one is found.
+TEST(Cora, OneEdgeOfTheIntervalMayBeAutomatic) {
+  CoraParameters p = cora_parameters({{"T_MIN", 0.0}, {"T_MAX", "automatic"}});
+  const CoraResult r = cora(pulses(), pulses(), p);
+  EXPECT_EQ(r.t_min, 0);
+  EXPECT_LT(r.t_max, 0.09);
+}
+
+TEST(Cora, AStepThatGivesTooManySamplesIsRefused) {
+  CoraParameters p;
+  p.dt = 1e-12;
+  EXPECT_THROW(cora(pulses(), pulses(), p), SignalError);
+}
+
+TEST(Iso18571, IrregularTimesAreMadeUniform) {
+  Series x = pulses(), irregular;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (i % 5 == 2) continue;
+    irregular.t.push_back(x.t[i]);
+    irregular.y.push_back(x.y[i]);
+  }
+  Series same = irregular;
+  align_grids(irregular, same);
+  EXPECT_TRUE(is_uniform(irregular.t));
+  EXPECT_EQ(irregular.t, same.t);
 }
 
 TEST(Iso18571, DifferentGridsAreAlignedFirst) {
@@ -207,6 +249,32 @@ TEST(ScoreCard, IrregularSignalsAreResampledBeforeFiltering) {
       VectorSeries{s.t, s.y, std::vector<double>(s.size()), std::vector<double>(s.size())};
   const double expected = score_card(filtered(regular)).linear->HIC15.value;
   EXPECT_NEAR(score_card(filtered(irregular)).linear->HIC15.value / expected, 1, 2e-3);
+}
+
+TEST(ScoreCard, SaysWhatFilteringDidBesides) {
+  HeadSignals signals;
+  for (const double t : {0.0, 3e-4, 6e-4, 9e-4, 12e-4, 15e-4}) {
+    if (!signals.acceleration) signals.acceleration.emplace();
+    signals.acceleration->t.push_back(t);
+  }
+  signals.acceleration->x.assign(6, 1);
+  signals.acceleration->y = signals.acceleration->z = signals.acceleration->x;
+  EXPECT_THROW(filtered(signals), SignalError);  // CFC 1000 needs more than 4630 samples per second
+  for (double& t : signals.acceleration->t) t *= 0.5;
+  signals.acceleration->t.back() += 1e-4;
+  signals.angular_velocity = signals.angular_acceleration = signals.acceleration;
+  const std::vector<std::string> notes = score_card(filtered(signals)).notes;
+  ASSERT_EQ(notes.size(), 4U);
+  EXPECT_NE(notes[0].find("acceleration: samples are irregular"), std::string::npos);
+  EXPECT_NE(notes[1].find("CFC 1000 asks for 10000"), std::string::npos);
+  EXPECT_NE(notes[3].find("is not used"), std::string::npos);
+}
+
+TEST(BrainMetrics, RefuseWhatIsNotANumber) {
+  VectorSeries w = spin();
+  w.y[3] = std::nan("");
+  EXPECT_THROW(bric(w), SignalError);
+  EXPECT_THROW(ubric(spin(), w, UbricPeak::PeakToPeak), SignalError);
 }
 
 TEST(ScoreCard, NamesChannelAndSampleOfANan) {

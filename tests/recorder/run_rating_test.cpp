@@ -33,6 +33,15 @@ TEST(RunRating, MissingSamplesAtTheEdgesAreLeftOut) {
   EXPECT_NEAR(ratings[0].iso->R, 1, 1e-12);
 }
 
+TEST(RunRating, AMissingSampleInsideIsAFault) {
+  Channel a = wave("head_cog_x", "mm", 1);
+  a.samples[250] = std::nan("");
+  const auto ratings =
+      rate_against_run({{"head_cog_x", "X", 1}}, {a}, {wave("head_cog_x", "mm", 1)}, "other");
+  EXPECT_FALSE(ratings[0].cora);
+  EXPECT_THAT(ratings[0].fault, ::testing::HasSubstr("sample 250"));
+}
+
 TEST(RunRating, WeightsAreNormalisedOverWhatIsRated) {
   const std::vector<Channel> run = {wave("a", "mm", 1), wave("b", "mm", 0.5), wave("d", "N", 1)};
   const std::vector<Channel> reference = {wave("a", "mm", 1), wave("b", "mm", 1),
@@ -123,6 +132,20 @@ void expect_printed(const RateRequest& request, const nlohmann::json& wanted) {
       EXPECT_EQ(p.json[key], value) << where << ": " << key;
     }
   }
+}
+
+TEST(RateCommand, FoldersInPlaceOfFilesAreAnError) {
+  const fs::path folder = fs::temp_directory_path();
+  RateRequest request{"cora", {vector_folder("cora") / "identical.csv"}, {}, {}, folder, {}};
+  EXPECT_EQ(printed([&] { return rate(request, OutputForm::Json); }).json["error"],
+            "bad_parameter");
+  const auto broken = [] {
+    fs::create_directories("/proc/no_such_folder");
+    return ExitCode::Done;
+  };
+  const Printed p = printed(broken);
+  EXPECT_EQ(p.code, ExitCode::UserError);
+  EXPECT_EQ(p.json["error"], "input");
 }
 
 TEST(RateCommand, PrintsTheFieldsOfTheCoraVectors) {

@@ -140,6 +140,22 @@ TEST(ReferenceCurve, UnitsSignAndFrameAreTakenFromItsComments) {
   fs::remove(path);
 }
 
+/// A mistake in somebody's curve must not cost the run its results.
+TEST(ReferenceData, ABrokenCurveIsLeftOutWithAWarning) {
+  const fs::path folder = fs::temp_directory_path() / "cw_reference_broken";
+  fs::create_directories(folder / "curves");
+  std::ofstream(folder / "curves/head_cog_y.csv") << "# unit: mm\ntime_ms,value\n1,0\n0,1\n";
+  std::ofstream(folder / "curves/head_cog_z.csv") << "# unit: mm\ntime_ms,value\n0,0\n5,1\n";
+  const ReferenceData data = read_reference(folder);
+  fs::remove_all(folder);
+  ASSERT_EQ(data.curves.size(), 1U);
+  EXPECT_EQ(data.curves[0].channel, "head_cog_z");
+  ASSERT_EQ(data.faults.size(), 1U);
+  const Summary s = summary_of(synthetic_record(), data);
+  EXPECT_THAT(s.warnings, testing::Contains(HasSubstr("time does not increase")));
+  EXPECT_FALSE(s.ratings.empty());
+}
+
 TEST(ReferenceData, TheThreePublishedTestsAreKeptAsPrinted) {
   const fs::path root = fs::path(CW_SOURCE_DIR) / "scenarios" / "reference";
   double sum = 0;

@@ -9,6 +9,7 @@
 
 #include "recorder/path_gap.h"
 #include "recorder/run_report.h"
+#include "recorder/run_tables.h"
 #include "recorder/signal.h"
 
 namespace crosswalk::recording {
@@ -162,7 +163,7 @@ std::vector<std::string> score_cells(const std::vector<ScoreColumn>& columns,
 
 /// In the layout of the published table: a row per signal, a column per run, then the means.
 ReportTable score_table(const std::vector<ScoreColumn>& columns, const ComparisonSettings& settings,
-                        const char* title, const char* caption) {
+                        const char* title, const std::string& caption) {
   ReportTable table{title, caption, {"signal"}, {}};
   std::vector<std::string> kinds;
   for (const ScoreColumn& column : columns) {
@@ -240,7 +241,7 @@ constexpr const char* kMutualTitle = "CORA of the runs against each other";
 ReportTable path_table(const std::vector<ComparedRun>& runs) {
   ReportTable table{"Head paths before head contact",
                     "Distance of the head's centre of mass to that of the first run of the "
-                    "scenario, displacements since first leg contact.",
+                    "scenario, displacements since time zero.",
                     {"runs", "largest distance [mm]", "at [ms]", "compared until [ms]"},
                     {}};
   const std::vector<std::string> labels = labels_of(runs);
@@ -264,7 +265,8 @@ std::vector<ReportTable> tables_of(const std::vector<ComparedRun>& runs,
   if (!tests.empty()) {
     tables.push_back(score_table(tests, settings, kTestTitle,
                                  "Total score C; a dash where no measured curve is available. "
-                                 "Deviation: of the population, as in [yu2020, Table 3]."));
+                                 "Deviation: of the population, as in [yu2020, Table 3]. " +
+                                     parameter_text(settings.parameters.cora) + "."));
   }
   ReportTable paths = path_table(runs);
   if (!paths.rows.empty()) tables.push_back(std::move(paths));
@@ -272,7 +274,8 @@ std::vector<ReportTable> tables_of(const std::vector<ComparedRun>& runs,
   if (!mutual.empty()) {
     tables.push_back(score_table(mutual, settings, kMutualTitle,
                                  "Total score C of each run against the first run of its scenario; "
-                                 "1 means equal curves. This is no validation."));
+                                 "1 means equal curves. This is no validation. " +
+                                     parameter_text(settings.parameters.cora) + "."));
   }
   return tables;
 }
@@ -281,7 +284,7 @@ std::vector<BarChart> bars_of(const std::vector<ComparedRun>& runs,
                               const ComparisonSettings& settings) {
   std::vector<BarChart> bars{
       bar_chart(runs, "HIC15", "HIC15 [–]", "HIC15"),
-      bar_chart(runs, "Head contact time", "time after first leg contact [ms]",
+      bar_chart(runs, "Head contact time", "head contact after time zero [ms]",
                 "head_contact_time_ms")};
   const std::vector<ScoreColumn> tests = test_columns(runs, settings);
   if (!tests.empty()) bars.push_back(score_bars(tests, settings, kTestTitle));
@@ -299,9 +302,14 @@ ReportInput comparison_input(const std::vector<ComparedRun>& runs,
   input.title = fmt::format("Comparison of {} runs", runs.size());
   for (const std::string& label : labels)
     input.subtitle += (input.subtitle.empty() ? "" : " · ") + label;
-  input.story =
-      "The same quantities of every run side by side; curves overlaid on the time after "
-      "first leg contact of each.";
+  const bool is_contact_zero = std::all_of(runs.begin(), runs.end(), [](const ComparedRun& run) {
+    return run.analysis.summary.has_first_contact;
+  });
+  if (!is_contact_zero) input.time_zero = "first leg contact, or start of a run without";
+  input.story = fmt::format(
+      "The same quantities of every run side by side; curves overlaid on the time after {} of "
+      "each.",
+      input.time_zero);
   input.bars = bars_of(runs, settings);
   input.tables = tables_of(runs, settings);
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -340,7 +348,7 @@ std::string comparison_text(const std::vector<ComparedRun>& runs,
     for (const auto& row : table.rows) out += line(row);
     out += "\n";
   }
-  return out;
+  return out + parameter_text(settings.parameters.cora) + "\n";
 }
 
 }  // namespace crosswalk::recording

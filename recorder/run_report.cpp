@@ -13,6 +13,7 @@
 #include "recorder/description.h"
 #include "recorder/field_frame.h"
 #include "recorder/run_scene.h"
+#include "recorder/run_tables.h"
 #include "recorder/run_verdict.h"
 
 namespace crosswalk::recording {
@@ -77,78 +78,6 @@ std::string story_of(const Summary& s) {
 std::string spaced(std::string key) {
   std::replace(key.begin(), key.end(), '_', ' ');
   return key;
-}
-
-std::string percent(double share) { return fmt::format("{:.1f}\u00a0%", 100 * share); }
-
-ReportTable rating_table(const Summary& s) {
-  ReportTable table{
-      "Ratings against the measured curves",
-      "CORA with its default parameters over the whole common interval; ISO/TS 18571.",
-      {"signal", "CORA C", "corridor C1", "shape V", "size G", "phase P", "ISO R", "ISO grade",
-       "reference"},
-      {}};
-  for (const SignalRating& r : s.ratings) {
-    if (!r.cora) {
-      table.rows.push_back({r.signal.label, "–", "", "", "", "", "", r.fault, r.reference});
-      continue;
-    }
-    const auto three = [](double v) { return fmt::format("{:.3f}", v); };
-    table.rows.push_back({r.signal.label, three(r.cora->C), three(r.cora->C1), three(r.cora->V),
-                          three(r.cora->G), three(r.cora->P), r.iso ? three(r.iso->R) : "–",
-                          r.iso ? r.iso->grade : "–", r.reference});
-  }
-  return table;
-}
-
-ReportTable risk_table(const Summary& s) {
-  ReportTable table{"Injury risk",
-                    "Families of curves disagree; each is printed with its author.",
-                    {"curve"},
-                    {}};
-  std::vector<std::string> levels;
-  for (const RiskFamily& family : s.card.risks) {
-    for (const Risk& risk : family.risks) {
-      if (std::find(levels.begin(), levels.end(), risk.level) == levels.end())
-        levels.push_back(risk.level);
-    }
-  }
-  std::sort(levels.begin(), levels.end());
-  table.columns.insert(table.columns.end(), levels.begin(), levels.end());
-  for (const RiskFamily& family : s.card.risks) {
-    std::vector<std::string> row{family.author};
-    for (const std::string& level : levels) {
-      const auto risk = risk_of(s, family.key, level);
-      row.push_back(risk ? percent(*risk) : "");
-    }
-    table.rows.push_back(row);
-  }
-  return table;
-}
-
-std::string label_of(const std::string& channel) {
-  for (const RatedSignal& signal : rating_set({})) {
-    if (signal.channel == channel) return signal.label;
-  }
-  return channel;
-}
-
-/// The layout of the published table: a row per signal, a column per model.
-ReportTable published_table(const Summary& s) {
-  ReportTable table{
-      "Published CORA scores of other models in this test", s.published_source, {"signal"}, {}};
-  for (const PublishedScore& p : s.published) {
-    const std::string label = label_of(p.signal);
-    auto column = std::find(table.columns.begin() + 1, table.columns.end(), p.model);
-    if (column == table.columns.end()) column = table.columns.insert(column, p.model);
-    auto row = std::find_if(table.rows.begin(), table.rows.end(),
-                            [&label](const auto& cells) { return cells[0] == label; });
-    if (row == table.rows.end()) row = table.rows.insert(row, {label});
-    row->resize(std::max(row->size(), table.columns.size()));
-    (*row)[static_cast<std::size_t>(column - table.columns.begin())] =
-        fmt::format("{:.3f}", p.score);
-  }
-  return table;
 }
 
 /// Ids of the parts that are regions of the brain.
@@ -298,10 +227,9 @@ ReportInput report_input(const Analysis& analysis, const RunRecord& record,
   input.verdict = verdict_of(s);
   input.warnings = s.warnings;
   input.curves = {curve_set(analysis.channels, mode_of(s), CurveOrigin::ThisRun)};
+  input.time_zero = time_zero_of(s);
   if (s.head_contact) input.marks.push_back({s.head_contact->time, "head contact"});
-  if (!s.ratings.empty()) input.tables.push_back(rating_table(s));
-  if (!s.card.risks.empty()) input.tables.push_back(risk_table(s));
-  if (!s.published.empty()) input.tables.push_back(published_table(s));
+  input.tables = run_tables(s);
   input.tissue = tissue_of(record, s.t0, directory.fields());
   input.scene = scene_of(record, s.t0);
   input.provenance = provenance_of(s, directory);

@@ -74,7 +74,7 @@ void add_impact(Rows& rows, const Summary& s) {
   }
   const HeadContact& c = *s.head_contact;
   rows.add(kImpact, "Head contact time", fmt::format("{:.1f}", 1e3 * c.time), "ms").note =
-      "After the first contact of leg and car; struck: " + c.partner + ".";
+      fmt::format("After {}; struck: {}.", time_zero_of(s), c.partner);
   rows.hold_against_band("head_contact_time_ms");
   if (c.wrap_around_distance) {
     rows.add(kImpact, "Wrap-around distance (WAD)",
@@ -179,7 +179,7 @@ void add_quality(Rows& rows, const Summary& s) {
   if (s.coupling) {
     rows.add(kQuality, "Energy balance of the whole run",
              fmt::format("{:.2f}", s.coupling->balance_percent), "%")
-        .note = "Both solvers together, of the peak energy.";
+        .note = s.fe ? "Both solvers together, of the peak energy." : "Of the peak energy.";
   }
   VerdictRow& record = rows.add(kQuality, "Record", s.is_complete ? "complete" : "incomplete", "");
   record.status = s.is_complete ? Verdict::Good : Verdict::Bad;
@@ -187,11 +187,16 @@ void add_quality(Rows& rows, const Summary& s) {
   record.note = s.is_complete ? fmt::format("Every one of {} messages is in the log.", s.messages)
                               : s.outcome;
   rows.add(kQuality, "Computing time", fmt::format("{:.0f}", s.timing.wall), "s").note =
-      fmt::format("For {:.0f} ms; multibody {:.1f} s, finite elements {:.1f} s.", 1e3 * s.simulated,
-                  s.timing.mb, s.timing.fe);
+      fmt::format("For {:.0f} ms; solving took {:.1f} s for the bodies{}.", 1e3 * s.simulated,
+                  s.timing.mb,
+                  s.fe ? fmt::format(", {:.1f} s for the finite elements", s.timing.fe) : "");
 }
 
 }  // namespace
+
+std::string time_zero_of(const Summary& summary) {
+  return summary.has_first_contact ? "first leg contact" : "the start of the computation";
+}
 
 std::optional<double> risk_of(const Summary& s, const std::string& family,
                               const std::string& level) {

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "common/units.h"
+
 namespace crosswalk::recording {
 namespace {
-
-constexpr double kStandardGravity = 9.80665;  // m/s2 [ISO 80000-3]
-constexpr const char* kTimeLabel = "time after first leg contact [ms]";
 
 /// How a stored unit is shown.
 struct Shown {
@@ -64,7 +64,7 @@ const std::vector<GroupSpec>& groups() {
        {{"head_x",
          "Head displacement X, across the car",
          "displacement X",
-         "Head centre of gravity (COG) from where it was at first leg contact; X is the way the "
+         "Head centre of gravity (COG) from where it was at time zero; X is the way the "
          "pedestrian faces.",
          {{"head_cog_x", ""}}},
         {"head_y",
@@ -148,7 +148,7 @@ const std::vector<GroupSpec>& groups() {
           {"fe_contact_energy", "contact"},
           {"fe_damping_energy", "damping"}}},
         {"coupling_energy",
-         "Energy error of the coupled run",
+         "Energy error of the run",
          "energy",
          "Drift: work booked by the two solvers at their interface, which should cancel. Balance: "
          "total energy minus the work put in.",
@@ -192,7 +192,6 @@ Chart time_chart(const Spec& spec, const std::vector<CurveSet>& sets,
   chart.id = spec.id;
   chart.title = spec.title;
   chart.caption = spec.caption;
-  chart.x_label = kTimeLabel;
   chart.components = static_cast<int>(spec.lines.size());
   chart.marks = marks_in_ms(marks);
   for (std::size_t s = 0; s < sets.size(); ++s) {
@@ -211,12 +210,19 @@ Chart time_chart(const Spec& spec, const std::vector<CurveSet>& sets,
   return chart;
 }
 
+/// True when a chart shows nothing but zeros: the interface of a run that has none.
+bool is_all_zero(const Chart& chart) {
+  return std::all_of(chart.curves.begin(), chart.curves.end(), [](const ChartCurve& curve) {
+    return std::all_of(curve.y.begin(), curve.y.end(), [](double v) { return !(std::abs(v) > 0); });
+  });
+}
+
 /// The path of the head in the plane of the car's travel (paper's Figure 6 d).
 Chart trajectory(const std::vector<CurveSet>& sets) {
   Chart chart;
   chart.id = "head_trajectory";
   chart.title = "Path of the head seen from the side (YOZ plane)";
-  chart.caption = "From the position at first leg contact (0, 0); both axes have one scale.";
+  chart.caption = "From the position at time zero (0, 0); both axes have one scale.";
   chart.x_label = "displacement Y, along the car's travel [mm]";
   chart.y_label = "displacement Z, up [mm]";
   chart.is_trajectory = true;
@@ -295,7 +301,8 @@ ChartGroup remaining(const std::vector<CurveSet>& sets, const std::set<std::stri
 }  // namespace
 
 std::vector<ChartGroup> channel_charts(const std::vector<CurveSet>& sets,
-                                       const std::vector<TimeMark>& marks) {
+                                       const std::vector<TimeMark>& marks,
+                                       const std::string& time_zero) {
   std::vector<ChartGroup> out;
   std::set<std::string> drawn;
   for (const GroupSpec& group_spec : groups()) {
@@ -303,7 +310,8 @@ std::vector<ChartGroup> channel_charts(const std::vector<CurveSet>& sets,
     for (const Spec& spec : group_spec.charts) {
       for (const Line& line : spec.lines) drawn.insert(line.channel);
       Chart chart = time_chart(spec, sets, marks);
-      if (!chart.curves.empty()) group.charts.push_back(std::move(chart));
+      const bool is_idle = std::string(spec.id) == "coupling_gap" && is_all_zero(chart);
+      if (!chart.curves.empty() && !is_idle) group.charts.push_back(std::move(chart));
       if (std::string(spec.id) == "head_z") {
         Chart path = trajectory(sets);
         if (!path.curves.empty()) group.charts.push_back(std::move(path));
@@ -315,6 +323,11 @@ std::vector<ChartGroup> channel_charts(const std::vector<CurveSet>& sets,
   if (!brain.charts.empty()) out.push_back(std::move(brain));
   ChartGroup rest = remaining(sets, drawn, marks);
   if (!rest.charts.empty()) out.push_back(std::move(rest));
+  for (ChartGroup& group : out) {
+    for (Chart& chart : group.charts) {
+      if (!chart.is_trajectory) chart.x_label = fmt::format("time after {} [ms]", time_zero);
+    }
+  }
   return out;
 }
 

@@ -16,8 +16,10 @@ struct ChartGroup {
 };
 
 /// Charts of the given sets; a chart appears when at least one set has one of its channels. The
-/// first set decides about the order of channels without a place.
+/// first set decides about the order of channels without a place. `time_zero` says what zero on the
+/// time axes means.
 std::vector<ChartGroup> channel_charts(const std::vector<CurveSet>& sets,
-                                       const std::vector<TimeMark>& marks);
+                                       const std::vector<TimeMark>& marks,
+                                       const std::string& time_zero);
 
 }  // namespace crosswalk::recording

@@ -13,7 +13,8 @@ namespace crosswalk::recording {
 namespace {
 
 // Okabe and Ito's palette (Color Universal Design, 2008) in an order of falling contrast.
-constexpr std::array<const char*, 4> kSetColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7"};
+constexpr std::array<const char*, 6> kSetColours{"#0072b2", "#d55e00", "#009e73",
+                                                 "#cc79a7", "#e69f00", "#56b4e9"};
 constexpr std::array<const char*, 4> kDashes{"", "7 3", "10 3 2 3", "2 2"};
 constexpr std::array<const char*, 6> kComponentColours{"#0b3c5d", "#d55e00", "#56b4e9",
                                                        "#009e73", "#cc79a7", "#8a8a8a"};
@@ -25,6 +26,12 @@ std::string base64_floats(const std::vector<double>& values) {
   std::transform(values.begin(), values.end(), narrow.begin(),
                  [](double v) { return static_cast<float>(v); });
   return base64(narrow.data(), narrow.size() * sizeof(float));
+}
+
+int set_count(const Chart& chart) {
+  int count = 0;
+  for (const ChartCurve& curve : chart.curves) count = std::max(count, curve.set + 1);
+  return count;
 }
 
 }  // namespace
@@ -45,7 +52,37 @@ LineStyle line_style(const Chart& chart, const ChartCurve& curve) {
     style.dash = kReferenceDash;
   }
   if (curve.set == 0) style.width = 2.0;
+  if (chart.components > 1) {
+    style.symbol = curve.component;
+  } else if (set_count(chart) > static_cast<int>(kDashes.size())) {
+    style.symbol = curve.set;
+  }
   return style;
+}
+
+Symbol symbol_at(int symbol, double x, double y) {
+  constexpr double kHalf = 3.2;  // px
+  constexpr int kShapes = 4;     // circle, square, triangle, diamond; open, then filled
+  Symbol out;
+  out.is_filled = symbol / kShapes % 2 == 1;
+  const double r = kHalf;
+  switch (symbol % kShapes) {
+    case 0:
+      out.path = fmt::format("M{0:.1f} {1:.1f}a{2} {2} 0 1 0 {3} 0a{2} {2} 0 1 0 -{3} 0z", x - r, y,
+                             r, 2 * r);
+      break;
+    case 1:
+      out.path = fmt::format("M{:.1f} {:.1f}h{}v{}h-{}z", x - r, y - r, 2 * r, 2 * r, 2 * r);
+      break;
+    case 2:
+      out.path =
+          fmt::format("M{:.1f} {:.1f}l{} {}h-{}z", x, y - 1.2 * r, 1.2 * r, 2.1 * r, 2.4 * r);
+      break;
+    default:
+      out.path = fmt::format("M{:.1f} {:.1f}l{} {}l-{} {}l-{} -{}z", x, y - 1.3 * r, 1.3 * r,
+                             1.3 * r, 1.3 * r, 1.3 * r, 1.3 * r, 1.3 * r);
+  }
+  return out;
 }
 
 std::vector<double> axis_ticks(double low, double high, int count) {
@@ -83,6 +120,7 @@ nlohmann::ordered_json chart_json(const Chart& chart) {
                              {"colour", style.colour},
                              {"dash", style.dash},
                              {"width", style.width},
+                             {"symbol", style.symbol},
                              {"x", base64_floats(curve.x)},
                              {"y", base64_floats(curve.y)}});
   }

@@ -1,8 +1,8 @@
 // A drawn chart: curves with labels and units, ready to be written as a static SVG drawing (print,
 // no script) or handed to the page script as JSON.
 //
-// Style (colour-blind safe after Okabe and Ito, and told apart in grey): one hue and one dash
-// pattern per run, one lightness per component.
+// Style (colour-blind safe after Okabe and Ito, and told apart without colour): one dash pattern
+// per run; one symbol per component, or per run where there are more runs than dash patterns.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct ChartCurve {
   std::string label;
   CurveOrigin origin = CurveOrigin::ThisRun;
   int set = 0;        ///< which run or test: dash pattern
-  int component = 0;  ///< which of several curves of one run: lightness
+  int component = 0;  ///< which of several curves of one run: colour and symbol
   std::vector<double> x;
   std::vector<double> y;
 };
@@ -39,8 +39,16 @@ struct LineStyle {
   std::string colour;
   std::string dash;  ///< SVG stroke-dasharray in px, empty for solid
   double width = 1.6;
+  int symbol = -1;  ///< drawn along the curve; -1 for none
 };
 LineStyle line_style(const Chart& chart, const ChartCurve& curve);
+
+/// Outline of a symbol about a point, SVG path data, and whether it is filled.
+struct Symbol {
+  std::string path;
+  bool is_filled = false;
+};
+Symbol symbol_at(int symbol, double x, double y);
 
 /// Round axis values covering [low, high]: about `count` of them, steps 1, 2 or 5 times a power of
 /// ten.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -25,7 +26,8 @@ struct Axis {
       low = 0;
       high = 1;
     }
-    const double span = high > low ? high - low : std::max(1e-12, std::abs(high));
+    const double flat = high != 0 ? std::abs(high) : 1;  // of a curve that never changes
+    const double span = high > low ? high - low : flat;
     low -= share * span;
     high += share * span;
   }
@@ -35,7 +37,8 @@ struct Axis {
 constexpr double kWidth = 560, kHeight = 300;
 constexpr double kLeft = 66, kRight = 12, kTop = 30, kBottom = 44;
 constexpr double kLegendKey = 44, kLegendLetter = 6.1, kLegendRow = 16;
-constexpr int kColumns = 700;  // at most two points per column survive thinning
+constexpr double kSymbolEvery = 84;  // px
+constexpr int kColumns = 700;        // at most two points per column survive thinning
 
 std::string tick_text(double value, double step) {
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
@@ -99,6 +102,36 @@ std::vector<std::size_t> thinned(const ChartCurve& curve, const Axis& x) {
   return kept;
 }
 
+std::string symbol_svg(const LineStyle& style, double x, double y) {
+  const Symbol symbol = symbol_at(style.symbol, x, y);
+  return fmt::format("<path d='{}' fill='{}' stroke='{}' stroke-width='1.2'/>", symbol.path,
+                     symbol.is_filled ? style.colour : "#fff", style.colour);
+}
+
+/// The curve's symbol every kSymbolEvery px along the way, those of different curves set off.
+std::string symbols_svg(const Chart& chart, const ChartCurve& curve,
+                        const std::vector<std::size_t>& points, const Axis& x, const Axis& y) {
+  const LineStyle style = line_style(chart, curve);
+  const auto index = static_cast<double>(&curve - chart.curves.data());
+  double due = kSymbolEvery * (index + 0.5) / static_cast<double>(chart.curves.size());
+  double way = 0;
+  std::optional<double> last_x, last_y;
+  std::string out;
+  for (const std::size_t i : points) {
+    if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) continue;
+    const double at_x = x.px(curve.x[i]), at_y = y.px(curve.y[i]);
+    // A path in space is as long as it is; over time, only the time counts.
+    if (last_x)
+      way += chart.is_trajectory ? std::hypot(at_x - *last_x, at_y - *last_y) : at_x - *last_x;
+    last_x = at_x;
+    last_y = at_y;
+    if (way < due) continue;
+    out += symbol_svg(style, at_x, at_y);
+    due += kSymbolEvery;
+  }
+  return out;
+}
+
 std::string curve_svg(const Chart& chart, const ChartCurve& curve, const Axis& x, const Axis& y) {
   const LineStyle style = line_style(chart, curve);
   std::string path;
@@ -119,10 +152,12 @@ std::string curve_svg(const Chart& chart, const ChartCurve& curve, const Axis& x
         fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", x.px(curve.x[i]), y.px(curve.y[i]));
     pen_down = true;
   }
-  return fmt::format(
+  std::string out = fmt::format(
       "<path d='{}' fill='none' stroke='{}' stroke-width='{}' stroke-linejoin='round'{}/>", path,
       style.colour, style.width,
       style.dash.empty() ? "" : fmt::format(" stroke-dasharray='{}'", style.dash));
+  if (style.symbol >= 0) out += symbols_svg(chart, curve, points, x, y);
+  return out;
 }
 
 /// Where the legend's entries go: as many rows as they need, the drawing grows upwards by the rest.
@@ -177,6 +212,7 @@ std::string legend_svg(const Chart& chart, const LegendPlaces& places) {
         x, x + 24, y, y, style.colour, style.width,
         style.dash.empty() ? "" : fmt::format(" stroke-dasharray='{}'", style.dash), x + 28, y + 4,
         html_escaped(chart.curves[i].label));
+    if (style.symbol >= 0) out += symbol_svg(style, x + 12, y);
   }
   return out;
 }

@@ -138,7 +138,7 @@ data cover(const ReportInput& input) {
   for (const TimeMark& mark : input.marks) {
     if (mark.label != "head contact") continue;
     t = mark.t;
-    caption = fmt::format("Head contact, {} after the leg was struck", milliseconds(t));
+    caption = fmt::format("Head contact, {} after {}", milliseconds(t), input.time_zero);
   }
   const Framing part = framing(scene, StillView::Posterior, {0.0, t});
   data out = object();
@@ -284,7 +284,7 @@ void set_annexes(data& page, const ReportInput& input) {
 bool report_is_interactive() { return !assets::page_script.empty(); }
 
 std::string render_report(const ReportInput& input) {
-  const std::vector<ChartGroup> groups = channel_charts(input.curves, input.marks);
+  const std::vector<ChartGroup> groups = channel_charts(input.curves, input.marks, input.time_zero);
   data page = object();
   page.set("style", std::string(assets::report_style));
   page.set("script_style", std::string(assets::page_script_style));
@@ -295,6 +295,7 @@ std::string render_report(const ReportInput& input) {
   page.set("has_tables", data(!input.tables.empty()));
   page.set("tables", tables(input.tables));
   page.set("has_charts", data(!groups.empty()));
+  page.set("time_zero", input.time_zero);
   page.set("chart_groups", chart_groups(groups));
   page.set("has_stills", data(!input.scene.empty()));
   page.set("has_scene", data(!input.scene.empty()));

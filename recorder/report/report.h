@@ -97,6 +97,7 @@ struct ReportInput {
   std::vector<std::string> warnings;
   std::vector<CurveSet> curves;  ///< the run itself first
   std::vector<TimeMark> marks;
+  std::string time_zero = "first leg contact";  ///< what zero on every time axis means
   std::vector<ReportTable> tables;
   std::vector<BarChart> bars;
   std::optional<TissuePeak> tissue;

@@ -13,6 +13,7 @@
 #include "recorder/path_gap.h"
 #include "recorder/run_compare.h"
 #include "recorder/run_scene.h"
+#include "recorder/run_tables.h"
 #include "tests/recorder/synthetic_run.h"
 
 namespace crosswalk::recording {
@@ -99,6 +100,23 @@ TEST(RunReport, VerdictTellsContactAndQuality) {
   EXPECT_THAT(input.marks, Contains(Field(&TimeMark::label, "head contact")));
   ASSERT_TRUE(input.tissue);
   EXPECT_EQ(input.tissue->regions.size(), 2U);
+}
+
+TEST(RunReport, InjuryMetricsComeWithWindowsAndParameters) {
+  const RunRecord record = record_of(true);
+  Analysis analysis = analyze_record(record);
+  SignalRating rating{{"head_cog_y", "Y", 1}, "test", CoraResult{}, {}, "ISO fault"};
+  analysis.summary.ratings = {rating};
+  const std::vector<ReportTable> tables = run_tables(analysis.summary);
+  ASSERT_GE(tables.size(), 2U);
+  EXPECT_THAT(tables[0].caption, HasSubstr("interval full, A_THRES 0.03,"));
+  ASSERT_EQ(tables[0].rows.size(), 1U);
+  EXPECT_EQ(tables[0].rows[0].size(), tables[0].columns.size());
+  EXPECT_THAT(tables[0].rows[0].back(), HasSubstr("ISO fault"));
+  EXPECT_EQ(tables[1].title, "Head injury metrics");
+  EXPECT_EQ(tables[1].rows[0][0], "HIC15");
+  EXPECT_THAT(tables[1].rows[0][3], HasSubstr(" to "));
+  for (const auto& row : tables[1].rows) EXPECT_EQ(row.size(), 4U) << row[0];
 }
 
 TEST(RunReport, WithoutMeasuredCurvesNothingIsRated) {

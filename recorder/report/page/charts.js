@@ -16,6 +16,58 @@ function borderOf(dash) {
   return Number(dash.split(' ')[0]) < 3 ? 'dotted' : 'dashed';
 }
 
+const kSymbolEvery = 84;  // px
+const kSymbols = ['○', '□', '△', '◇', '●', '■', '▲', '◆'];
+const symbolOf = (curve) => (curve.symbol < 0 ? '' : kSymbols[curve.symbol % kSymbols.length]);
+
+/** Symbols along the curves, so that they are told apart without colour. */
+function drawSymbols(plot, curves) {
+  const { ctx, bbox } = plot;
+  const ratio = devicePixelRatio;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  ctx.lineWidth = 1.2 * ratio;
+  curves.forEach((curve, k) => {
+    if (curve.symbol < 0 || !plot.series[k + 1].show) return;
+    const every = kSymbolEvery * ratio;
+    const shape = curve.symbol % 4;
+    ctx.strokeStyle = curve.colour;
+    ctx.fillStyle = Math.floor(curve.symbol / 4) % 2 === 1 ? curve.colour : '#fff';
+    for (let at = every * (k + 0.5) / curves.length; at < bbox.width; at += every) {
+      const i = sampleNear(plot.data[k + 1], plot.valToIdx(plot.posToVal(at / ratio, 'x')));
+      if (i < 0) continue;
+      const value = plot.data[k + 1][i];
+      const x = plot.valToPos(plot.data[0][i], 'x', true);
+      const y = plot.valToPos(value, 'y', true);
+      const r = 3.2 * ratio;
+      ctx.beginPath();
+      if (shape === 0) ctx.arc(x, y, r, 0, 2 * Math.PI);
+      if (shape === 1) ctx.rect(x - r, y - r, 2 * r, 2 * r);
+      if (shape === 2) polygon(ctx, [[x, y - 1.2 * r], [x + 1.2 * r, y + 0.9 * r], [x - 1.2 * r, y + 0.9 * r]]);
+      if (shape === 3) polygon(ctx, [[x, y - 1.3 * r], [x + 1.3 * r, y], [x, y + 1.3 * r], [x - 1.3 * r, y]]);
+      ctx.fill();
+      ctx.stroke();
+    }
+  });
+  ctx.restore();
+}
+
+/** The index next to `i` at which a series has a value (curves may stand on different times). */
+function sampleNear(values, i) {
+  for (let off = 0; off < 100; ++off) {
+    if (values[i + off] != null) return i + off;
+    if (values[i - off] != null) return i - off;
+  }
+  return -1;
+}
+
+function polygon(ctx, corners) {
+  corners.forEach(([x, y], i) => (i === 0 ? ctx.moveTo(x, y) : ctx.lineTo(x, y)));
+  ctx.closePath();
+}
+
 /** Vertical lines such as "head contact". */
 function drawMarks(plot, marks) {
   const { ctx, bbox } = plot;
@@ -54,10 +106,11 @@ function options(chart, width) {
     series: [
       { label: 't [ms]', value: (_, v) => (v == null ? '–' : v.toFixed(1)) },
       ...chart.curves.map((curve) => ({
-        label: curve.label, stroke: curve.colour, width: curve.width, dash: dashes(curve.dash),
+        label: `${symbolOf(curve)} ${curve.label}`.trim(), stroke: curve.colour, width: curve.width, dash: dashes(curve.dash),
         points: { show: false }, value: (_, v) => shown(v) })),
     ],
-    hooks: { draw: [(plot) => drawMarks(plot, chart.marks)] },
+    hooks: { draw: [(plot) => drawMarks(plot, chart.marks),
+                    (plot) => drawSymbols(plot, chart.curves)] },
   };
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ std::vector<ChartGroup> three_sets() {
   return channel_charts({synthetic::curves("a", CurveOrigin::ThisRun, 0),
                          synthetic::curves("b", CurveOrigin::OtherRun, 0.004),
                          synthetic::curves("c", CurveOrigin::Reference, 0)},
-                        {{0.118, "head contact"}});
+                        {{0.118, "head contact"}}, "first leg contact");
 }
 
 TEST(AxisTicks, StepsAreOneTwoOrFive) {
@@ -76,6 +77,32 @@ TEST(Chart, RunsDifferInDashSoThatGreyPrintsTellThemApart) {
   EXPECT_NE(run.dash, reference.dash);
   EXPECT_NE(other.dash, reference.dash);
   EXPECT_NE(run.colour, other.colour);
+}
+
+/// Components share the dash pattern of their run: symbols tell them apart.
+TEST(Chart, ComponentsDifferInTheirSymbol) {
+  const auto groups = three_sets();
+  const Chart& chart = chart_of(groups, "head_rotation");
+  std::set<std::pair<std::string, int>> seen;
+  for (const ChartCurve& curve : chart.curves) {
+    const LineStyle style = line_style(chart, curve);
+    EXPECT_TRUE(seen.insert({style.dash, style.symbol}).second) << curve.label;
+  }
+  const std::string path = symbol_at(1, 100, 50).path;
+  EXPECT_EQ(path, "M96.8 46.8h6.4v6.4h-6.4z");
+  EXPECT_NE(symbol_at(0, 0, 0).is_filled, symbol_at(4, 0, 0).is_filled);
+}
+
+TEST(Chart, MoreRunsThanDashPatternsDifferInTheirSymbol) {
+  std::vector<CurveSet> sets;
+  for (int i = 0; i < 8; ++i)
+    sets.push_back(synthetic::curves(std::to_string(i), CurveOrigin::OtherRun, 0));
+  const auto groups = channel_charts(sets, {}, "first leg contact");
+  const Chart& chart = chart_of(groups, "head_y");
+  std::set<int> symbols;
+  for (const ChartCurve& curve : chart.curves) symbols.insert(line_style(chart, curve).symbol);
+  EXPECT_EQ(symbols.size(), 8U);
+  EXPECT_THAT(chart_svg(chart), HasSubstr("stroke-width='1.2'"));
 }
 
 TEST(ChartSvg, MissingSamplesBreakTheLine) {

@@ -75,6 +75,9 @@ class Export {
   }
 
  private:
+  /// Bricks without a coefficient against hourglass modes get eight points, which have none.
+  static bool is_full(const SolidSection& solid) { return solid.hourglass == 0; }
+
   DeckId node_id(int index) const { return DeckId(first_.node + index); }
 
   void add_nodes() {
@@ -87,7 +90,8 @@ class Export {
     Part part{.id = DeckId(spec.id), .title = spec.name};
     part.material = DeckId(spec.id);
     part.section = section(spec);
-    if (const auto* solid = std::get_if<SolidSection>(&spec.section))
+    if (const auto* solid = std::get_if<SolidSection>(&spec.section);
+        solid != nullptr && !is_full(*solid))
       part.hourglass = hourglass(*solid);
     deck_.parts.push_back(part);
     const std::string title = spec.name + " " + mark(spec.grade) + " " + spec.source;
@@ -100,9 +104,9 @@ class Export {
   DeckId section(const PartSpec& spec) {
     Section section;
     DeckId* shared = nullptr;
-    std::visit(Overloaded{[&](const SolidSection&) {
-                            shared = &solid_section_;
-                            section.law = SectionSolid{.formulation = 1};
+    std::visit(Overloaded{[&](const SolidSection& solid) {
+                            shared = is_full(solid) ? &full_section_ : &solid_section_;
+                            section.law = SectionSolid{.formulation = is_full(solid) ? 2 : 1};
                           },
                           [&](const SpringSection&) {
                             shared = &spring_section_;
@@ -225,7 +229,7 @@ class Export {
   UnitFactors units_;
   DeckNumbers first_;
   Deck deck_;
-  DeckId solid_section_, spring_section_;
+  DeckId full_section_, solid_section_, spring_section_;
   int next_section_;
   std::map<double, DeckId> hourglass_;
 };

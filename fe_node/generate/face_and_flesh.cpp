@@ -88,19 +88,21 @@ class Sweep {
                                                 (a - strip_.face_row) /
                                                 (throat_row_ - strip_.face_row);
     const double t = column_share(b, section.half_breadth);
-    const Vec3 disc = square_to_disc(s, t, 0.9);
+    const Vec3 disc = square_to_disc(s, t, kSectionRoundness);
     const double reach = disc.x() > 0 ? front_depth(section, z) : section.half_depth;
     return {section.centre.x() + reach * disc.x(), section.half_breadth * disc.y(), z};
   }
 
   /// The throat starts well behind the chin, however thick the neck, and widens downwards.
   double front_depth(const NeckSection& section, double z) const {
-    const double chin_z = shape_.menton_z();
-    const double back = plan_.section(chin_z).centre.x() + kFrontWall;
-    const double front = shape_.face_outline(0, 1, 0, back).x();
-    const double at_chin = kFrontWall + kThroatShare * (front - back);
-    return std::min(section.half_depth, at_chin + kThroatSlope * std::max(0.0, chin_z - z));
+    const double chin_z = shape_.menton_z(), level = std::max(z, chin_z);
+    const double back = plan_.section(level).centre.x() + kFrontWall;
+    const double front = shape_.face_outline(shape_.face_height(level), 1, 0, back).x();
+    const double in_face = kFrontWall + kThroatShare * (front - back);
+    return std::min(section.half_depth, in_face + kThroatSlope * std::max(0.0, chin_z - z));
   }
+  /// A rounder one would flatten the cells at the section's four corners too much when fine.
+  static constexpr double kSectionRoundness = 0.85;
   static constexpr double kThroatSlope = 0.5;  ///< depth won per height below the chin [E]
   static constexpr double kFrontWall =
       0.018;  ///< channel's front before the section's centre, m [E]
@@ -126,9 +128,13 @@ class Sweep {
     if (a <= strip_.face_row) {
       target = section_point(a, b, z);
     } else {
-      const Vec3 chin = a <= throat_row_ ? section_point(a, b, chin_z) : face_point(a, b, chin_z);
-      const double low = smooth_step(0.3, 1.0, down);
-      target = (1 - low) * face_point(a, b, z) + low * chin;
+      // Both outlines are those of this level: their back moves with the spine, and rows of
+      // another level would pass those behind them.
+      target = face_point(a, b, z);
+      if (a <= throat_row_) {
+        const double low = smooth_step(0.3, 1.0, down);
+        target = (1 - low) * target + low * section_point(a, b, z);
+      }
     }
     Vec3 p = (1 - reach) * on_skull + reach * target;
     p.z() = z;

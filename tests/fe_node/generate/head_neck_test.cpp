@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "common/neck_landmarks.h"
@@ -56,11 +57,17 @@ HeadNeckSpec spec_of_subject(const std::string& subject) {
 }
 
 TEST(HeadNeck, ElementsOfTheTestedSubjectsAreWithinTheLimits) {
-  for (const char* subject : {"male_50", "v2370", "v2371", "v2374"}) {
-    const auto [jacobian, aspect] = worst(spec_of_subject(subject));
-    EXPECT_GT(jacobian, kMinScaledJacobian) << subject;
-    EXPECT_LT(aspect, kMaxAspect) << subject;
-  }
+  for (const Fidelity fidelity : {Fidelity::Coarse, Fidelity::Medium})
+    for (const char* subject : {"male_50", "v2370", "v2371", "v2374"}) {
+      HeadNeckSpec spec = spec_of_subject(subject);
+      spec.fidelity = fidelity;
+      for (const PartQuality& q : hex_quality(build_head_neck(spec).draft.mesh)) {
+        const std::string where = fmt::format("{}, part {}, {}", subject, q.part,
+                                              fidelity == Fidelity::Coarse ? "coarse" : "medium");
+        EXPECT_GT(q.min_scaled_jacobian, kMinScaledJacobian) << where;
+        EXPECT_LT(q.max_aspect, kMaxAspect) << where;
+      }
+    }
 }
 
 TEST(HeadNeck, CondylesAndHeadCentreLieWhereTheMultibodySubjectHasThem) {

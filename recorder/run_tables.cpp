@@ -16,15 +16,17 @@ std::string percent(double share) { return fmt::format("{:.1f}\u00a0%", 100 * sh
 
 std::string three(double value) { return fmt::format("{:.3f}", value); }
 
-ReportTable rating_table(const Summary& s) {
-  ReportTable table{
-      "Ratings against the measured curves",
-      "Over the whole common time. " + parameter_text(CoraParameters{}) +
-          ". Lag below zero: the simulation is late. Z, EP, EM, ES: corridor, phase, "
-          "magnitude and slope of ISO/TS 18571.",
-      {"signal", "CORA C", "corridor C1", "cross-correlation C2", "shape V", "size G", "phase P",
-       "lag [ms]", "ISO R", "Z", "EP", "EM", "ES", "ISO grade", "reference"},
-      {}};
+std::string reference_text(const SignalRating& r) {
+  return r.fault.empty() ? r.reference : r.reference + ": " + r.fault;
+}
+
+ReportTable cora_table(const Summary& s) {
+  ReportTable table{"CORA ratings against the measured curves",
+                    "Over the whole common time. " + parameter_text(CoraParameters{}) +
+                        ". Lag below zero: the simulation is late.",
+                    {"signal", "C", "corridor C1", "cross-correlation C2", "shape V", "size G",
+                     "phase P", "lag [ms]", "reference"},
+                    {}};
   for (const SignalRating& r : s.ratings) {
     std::vector<std::string> row{r.signal.label};
     if (r.cora) {
@@ -32,13 +34,28 @@ ReportTable rating_table(const Summary& s) {
         row.push_back(three(v));
       row.push_back(fmt::format("{:+.2f}", 1e3 * r.cora->delta));
     }
+    row.resize(table.columns.size() - 1, "–");
+    row.push_back(reference_text(r));
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+ReportTable iso_table(const Summary& s) {
+  ReportTable table{
+      "ISO/TS 18571 ratings against the measured curves",
+      "",
+      {"signal", "R", "corridor Z", "phase EP", "magnitude EM", "slope ES", "grade", "reference"},
+      {}};
+  for (const SignalRating& r : s.ratings) {
+    std::vector<std::string> row{r.signal.label};
     if (r.iso) {
       for (const double v : {r.iso->R, r.iso->Z, r.iso->EP, r.iso->EM, r.iso->ES})
         row.push_back(three(v));
       row.push_back(r.iso->grade);
     }
     row.resize(table.columns.size() - 1, "–");
-    row.push_back(r.fault.empty() ? r.reference : r.reference + ": " + r.fault);
+    row.push_back(reference_text(r));
     table.rows.push_back(row);
   }
   return table;
@@ -168,7 +185,7 @@ std::string parameter_text(const CoraParameters& parameters) {
 
 std::vector<ReportTable> run_tables(const Summary& s) {
   std::vector<ReportTable> tables;
-  if (!s.ratings.empty()) tables.push_back(rating_table(s));
+  if (!s.ratings.empty()) tables = {cora_table(s), iso_table(s)};
   if (s.card.linear || s.card.rotation) tables.push_back(injury_table(s));
   if (!s.card.risks.empty()) tables.push_back(risk_table(s));
   if (!s.published.empty()) tables.push_back(published_table(s));

@@ -106,12 +106,15 @@ double ContactLaw::permanent(double deepest) const {
 double ContactLaw::force(double d, double deepest) const {
   if (d <= 0) return 0;
   if (d >= deepest) return std::max(0.0, loading_.value(d));
+  return std::max(0.0, loading_.value(deepest)) * force_share(d, deepest);
+}
+
+double ContactLaw::force_share(double d, double deepest) const {
   const double rest = d - permanent(deepest);
   if (rest <= 0) return 0;
   const double B = (1 - first_.permanent_fraction) * first_.depth.value(deepest);
   const double C = (1 - second_.permanent_fraction) * second_.depth.value(deepest);
-  const double max_force = std::max(0.0, loading_.value(deepest));
-  if (C == 0) return max_force * std::pow(rest / B, first_.exponent);
+  if (C == 0) return std::pow(rest / B, first_.exponent);
   // B f^(1/e1) + C f^(1/e2) = rest, rising in f: bracketed secant (Illinois).
   const auto excess = [&](double f) {
     return B * std::pow(f, 1 / first_.exponent) + C * std::pow(f, 1 / second_.exponent) - rest;
@@ -135,7 +138,7 @@ double ContactLaw::force(double d, double deepest) const {
       kept = 1;
     }
   }
-  return max_force * f;
+  return f;
 }
 
 double ContactLaw::recoverable_energy(double deepest) const {
@@ -143,6 +146,31 @@ double ContactLaw::recoverable_energy(double deepest) const {
     return (1 - side.permanent_fraction) * side.depth.value(deepest) / (1 + side.exponent);
   };
   return std::max(0.0, loading_.value(deepest)) * (part(first_) + part(second_));
+}
+
+double ContactLaw::stored_energy(double d, double deepest) const {
+  if (d <= 0) return 0;
+  if (d >= deepest) return recoverable_energy(d);
+  // Integral of F_m f over the path's d(f) from f = 0.
+  const double f = force_share(d, deepest);
+  if (f <= 0) return 0;
+  const auto part = [&](const Side& side) {
+    return (1 - side.permanent_fraction) * side.depth.value(deepest) *
+           std::pow(f, 1 + 1 / side.exponent) / (1 + side.exponent);
+  };
+  return std::max(0.0, loading_.value(deepest)) * (part(first_) + part(second_));
+}
+
+double ContactLaw::penetration_holding(double energy, double deepest, double limit) const {
+  const auto stored = [&](double d) { return stored_energy(d, std::max(d, deepest)); };
+  if (limit <= 0 || stored(limit) <= energy) return std::max(0.0, limit);
+  double low = std::min(limit, permanent(deepest)), high = limit;
+  if (deepest < limit && stored(deepest) <= energy) low = deepest;
+  while (high - low > 1e-12) {
+    const double middle = 0.5 * (low + high);
+    (stored(middle) <= energy ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace crosswalk::mb

@@ -24,8 +24,16 @@ class ContactLaw {
   /// Energy put in by loading to `deepest`, and what unloading from there to d = 0 gives back.
   double loading_energy(double deepest) const { return loading_.integral(deepest); }
   double recoverable_energy(double deepest) const;
+  /// What unloading from d, after `deepest`, would give back.
+  double stored_energy(double d, double deepest) const;
+  /// Lost for good once unloaded from `deepest`: loading less recoverable energy.
+  double lost_energy(double deepest) const {
+    return loading_energy(deepest) - recoverable_energy(deepest);
+  }
   /// Penetration below which the force is zero after `deepest`.
   double permanent(double deepest) const;
+  /// Largest penetration up to `limit` that, after `deepest`, stores no more than `energy`.
+  double penetration_holding(double energy, double deepest, double limit) const;
 
  private:
   struct Side {
@@ -33,6 +41,9 @@ class ContactLaw {
     double exponent = 1;
     Curve depth;  ///< share of the total penetration
   };
+  /// Share F / F_m of the deepest force on the unloading path, d above the permanent penetration.
+  double force_share(double d, double deepest) const;
+
   Curve loading_;
   Side first_, second_;
 };

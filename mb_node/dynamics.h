@@ -4,32 +4,16 @@
 
 #include <span>
 
+#include "mb_node/contact_loads.h"
+#include "mb_node/joint_loads.h"
+#include "mb_node/loads.h"
 #include "mb_node/model.h"
 
 namespace crosswalk::mb {
 
-/// Pose and twist of every body at its reference point.
-struct Kinematics {
-  std::vector<Mat3> R;
-  std::vector<Vec3> p;
-  std::vector<Twist> V;
-};
-
 /// Forces of one substep, per body about its reference point, by origin.
 struct Loads {
   std::vector<Wrench> joint, contact, interface;
-};
-
-/// What the last substep's contacts were, for reports.
-struct ContactReport {
-  Vec3 car_total = Vec3::Zero();  ///< on the pedestrian
-  std::vector<Vec3> car_component;
-  Vec3 head_car = Vec3::Zero();
-  Vec3 head_point = Vec3::Zero();  ///< where the head last touched the car, W
-  Vec3 ground = Vec3::Zero();
-  double self_total = 0;  ///< N, sum of magnitudes
-  int contacts = 0;
-  std::uint64_t contact_set = 0;  ///< hash of the pairs in touch
 };
 
 /// A constant load on a segment's reference point, or on the car (segment = kCar).
@@ -48,32 +32,25 @@ class Dynamics {
   void substep(MbState& state, double dt, std::span<const ExternalLoad> external);
 
   const Kinematics& kinematics() const { return now_; }
-  const ContactReport& contacts() const { return report_; }
+  const ContactReport& contacts() const { return contacts_.report(); }
   double kinetic_energy() const { return world_.kinetic_energy(); }
   double gravity_energy() const;
-  double joint_energy(const MbState& state) const;
+  /// Stored in restraints.
+  double joint_energy(const MbState& state) const { return joints_.stored_energy(now_, state); }
+  /// Stored in contacts; see ContactLoads::stored_energy.
+  double contact_energy(const MbState& state) const {
+    return contacts_.stored_energy(now_, last_dt_, state);
+  }
   bool all_finite() const;
 
  private:
-  void restrain_joints(MbState& state);
-  double passive_moment(int segment, PassiveMoment kind) const;
-  void restrain_bone(int segment, MbState& state);
-  void bushings_and_ties();
-  void touch_car(MbState& state);
-  void touch_ground();
-  void touch_self(MbState& state);
-  void friction_and_apply(int segment, const Vec3& point, const Vec3& normal, double force,
-                          const Vec3& v_other, double friction, double slip_speed, Vec3& out);
-  void add(std::vector<Wrench>& loads, int segment, const Vec3& force, const Vec3& point);
-  PosedEllipsoid posed(const SurfacePart& part) const;
-
   const MbModel& model_;
   OdeWorld& world_;
   Kinematics now_, before_;
-  std::vector<JointMotion> motions_;
   Loads loads_;
-  ContactReport report_;
-  double car_power_ = 0;
+  JointLoads joints_;
+  ContactLoads contacts_;
+  double last_dt_ = 0;
 };
 
 }  // namespace crosswalk::mb

@@ -114,6 +114,13 @@ double stop_moment(const StopLaw& law, double depth, StopHistory& history) {
          std::pow((depth - start) / (history.deepest - start), kUnloadExponent);
 }
 
+double stop_loss(const StopLaw& law, double deepest) {
+  const double put_in = law.k1 * deepest * deepest / 2 + law.k2 * deepest * deepest * deepest / 3;
+  const double given_back =
+      envelope(law, deepest) * (1 - kUnloadStart) * deepest / (kUnloadExponent + 1);
+  return put_in - given_back;
+}
+
 double stop_energy(const StopLaw& law, double depth, const StopHistory& history) {
   // The history is of the last moment asked for; the joint may have gone deeper since, or touched.
   const double deepest = std::max(history.deepest, depth);
@@ -137,11 +144,15 @@ double ligament_moment(const LigamentLaw& law, double displacement, LigamentHist
 double ligament_energy(const LigamentLaw& law, double displacement,
                        const LigamentHistory& history) {
   const double d = std::abs(displacement);
-  if (!history.is_torn && d <= law.failure) return law.moment.integral(d);
+  if (!history.is_torn) return law.moment.integral(d);
   const double deepest = std::max(history.deepest, d);
-  const double moment =
-      std::max(0.0, law.moment.value(deepest) - law.unloading * (deepest - d));
+  const double moment = std::max(0.0, law.moment.value(deepest) - law.unloading * (deepest - d));
   return moment * moment / (2 * law.unloading);
+}
+
+double ligament_loss(const LigamentLaw& law, const LigamentHistory& history) {
+  if (!history.is_torn) return 0;
+  return law.moment.integral(history.deepest) - ligament_energy(law, history.deepest, history);
 }
 
 LigamentLaw without_failure(const LigamentLaw& law) {
@@ -159,17 +170,24 @@ LigamentLaw without_failure(const LigamentLaw& law) {
   return out;
 }
 
-double restraint_moment(const CoordinateLaw& law, const CoordinateInput& input, double angle,
-                        double rate, CoordinateHistory& history) {
-  double moment = -law.k0 * (angle - input.initial);
-  moment -= stop_moment(law.high, angle - law.max, history.high);
-  moment += stop_moment(law.low, law.min - angle, history.low);
-  moment += input.passive;
+RestraintMoment restraint_moment(const CoordinateLaw& law, const CoordinateInput& input,
+                                 double angle, double rate, CoordinateHistory& history) {
+  const CoordinateHistory before = history;
+  const double d = angle - input.initial;
+  RestraintMoment m;
+  m.elastic = -law.k0 * d - stop_moment(law.high, angle - law.max, history.high) +
+              stop_moment(law.low, law.min - angle, history.low);
+  m.lost = stop_loss(law.high, history.high.deepest) - stop_loss(law.high, before.high.deepest) +
+           stop_loss(law.low, history.low.deepest) - stop_loss(law.low, before.low.deepest);
   if (!law.ligament.moment.empty()) {
-    moment -= input.ligament_factor *
-              ligament_moment(law.ligament, angle - input.initial, history.ligament);
+    m.elastic -= input.ligament_factor * ligament_moment(law.ligament, d, history.ligament);
+    m.lost += input.ligament_factor * (ligament_loss(law.ligament, history.ligament) -
+                                       ligament_loss(law.ligament, before.ligament));
   }
-  return moment - law.damping * rate - law.friction * std::tanh(rate / kFrictionRate);
+  m.passive = input.passive;
+  m.damping = -law.damping * rate;
+  m.friction = -law.friction * std::tanh(rate / kFrictionRate);
+  return m;
 }
 
 double restraint_energy(const CoordinateLaw& law, const CoordinateInput& input, double angle,
@@ -183,22 +201,29 @@ double restraint_energy(const CoordinateLaw& law, const CoordinateInput& input, 
   return energy;
 }
 
-Vec3 bone_moment(const BoneLaw& law, const Vec3& angle, const Vec3& rate, bool may_break,
-                 BoneHistory& history) {
+BoneMoment bone_moment(const BoneLaw& law, const Vec3& angle, const Vec3& rate, bool may_break,
+                       BoneHistory& history) {
   const double theta = std::hypot(angle[0], angle[1]);
-  if (may_break && law.bending * theta > law.fracture_moment) history.is_broken = true;
+  BoneMoment m;
+  if (may_break && !history.is_broken && law.bending * theta > law.fracture_moment) {
+    m.lost = bone_energy(law, angle, history);
+    history.is_broken = true;
+    m.lost -= bone_energy(law, angle, history);
+  }
   double bending = law.bending, torsion = law.torsion;
-  Vec3 moment = -Vec3(law.bending_damping * rate[0], law.bending_damping * rate[1],
-                      law.torsion_damping * rate[2]);
+  m.damping = -Vec3(law.bending_damping * rate[0], law.bending_damping * rate[1],
+                    law.torsion_damping * rate[2]);
   if (history.is_broken) {
     bending *= kBrokenBending;
     torsion *= kBrokenTorsion;
-    for (int i = 0; i < 2; ++i) moment[i] -= kBrokenFriction * std::tanh(rate[i] / kFrictionRate);
+    for (int i = 0; i < 2; ++i) {
+      m.friction[i] = -kBrokenFriction * std::tanh(rate[i] / kFrictionRate);
+    }
     const double depth = theta - kBrokenStopAngle;
-    if (depth > 0) moment.head<2>() -= kBrokenStop * depth / theta * angle.head<2>();
+    if (depth > 0) m.elastic.head<2>() -= kBrokenStop * depth / theta * angle.head<2>();
   }
-  moment -= Vec3(bending * angle[0], bending * angle[1], torsion * angle[2]);
-  return moment;
+  m.elastic -= Vec3(bending * angle[0], bending * angle[1], torsion * angle[2]);
+  return m;
 }
 
 double bone_energy(const BoneLaw& law, const Vec3& angle, const BoneHistory& history) {

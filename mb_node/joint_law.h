@@ -29,6 +29,8 @@ struct StopHistory {
 };
 /// Moment at depth D > 0 (zero else); deepens the history.
 double stop_moment(const StopLaw& law, double depth, StopHistory& history);
+/// Lost for good once unloaded from a depth.
+double stop_loss(const StopLaw& law, double deepest);
 /// Energy that unloading from here would give back.
 double stop_energy(const StopLaw& law, double depth, const StopHistory& history);
 
@@ -39,6 +41,8 @@ struct LigamentHistory {
 /// Moment against a displacement from the initial angle, odd.
 double ligament_moment(const LigamentLaw& law, double displacement, LigamentHistory& history);
 double ligament_energy(const LigamentLaw& law, double displacement, const LigamentHistory& history);
+/// Lost for good by a torn ligament; zero while it is whole.
+double ligament_loss(const LigamentLaw& law, const LigamentHistory& history);
 /// The variant that never tears: a constant slope from the last intact point on.
 LigamentLaw without_failure(const LigamentLaw& law);
 
@@ -53,8 +57,14 @@ struct CoordinateInput {
   double passive = 0;          ///< two-joint passive moment relative to its start value
   double ligament_factor = 1;  ///< weakening of the knee ligaments with flexion
 };
-double restraint_moment(const CoordinateLaw& law, const CoordinateInput& input, double angle,
-                        double rate, CoordinateHistory& history);
+/// One coordinate's moments on the child by kind, N m, and what its history lost by them.
+struct RestraintMoment {
+  double elastic = 0, damping = 0, friction = 0, passive = 0;
+  double lost = 0;  ///< J, by hysteresis since the last moment asked for
+  double total() const { return elastic + damping + friction + passive; }
+};
+RestraintMoment restraint_moment(const CoordinateLaw& law, const CoordinateInput& input,
+                                 double angle, double rate, CoordinateHistory& history);
 /// Stored by the spring about the initial angle, the stops and the ligament.
 double restraint_energy(const CoordinateLaw& law, const CoordinateInput& input, double angle,
                         const CoordinateHistory& history);
@@ -63,8 +73,13 @@ struct BoneHistory {
   bool is_broken = false;
 };
 /// Generalised moments (alpha, beta, gamma) of a bone joint. `may_break`: the bone is still whole.
-Vec3 bone_moment(const BoneLaw& law, const Vec3& angle, const Vec3& rate, bool may_break,
-                 BoneHistory& history);
+struct BoneMoment {
+  Vec3 elastic = Vec3::Zero(), damping = Vec3::Zero(), friction = Vec3::Zero();
+  double lost = 0;  ///< J, by breaking
+  Vec3 total() const { return elastic + damping + friction; }
+};
+BoneMoment bone_moment(const BoneLaw& law, const Vec3& angle, const Vec3& rate, bool may_break,
+                       BoneHistory& history);
 double bone_energy(const BoneLaw& law, const Vec3& angle, const BoneHistory& history);
 
 /// Passive moments of relaxed subjects in flexion sense, N m; angles in rad, flexion and

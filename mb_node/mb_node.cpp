@@ -56,12 +56,14 @@ MbNode::~MbNode() = default;
 void MbNode::rebuild(const std::vector<Inertia>& blocks) {
   world_ = std::make_unique<OdeWorld>(build_world(*model_, blocks));
   dynamics_ = std::make_unique<Dynamics>(*model_, *world_);
-  start_energy_ = dynamics_->kinetic_energy() + dynamics_->gravity_energy();
+  start_motion_ = dynamics_->kinetic_energy() + dynamics_->gravity_energy();
+  start_energy_ = start_motion_ + dynamics_->joint_energy(state_);
 }
 
 BodyMotion MbNode::motion_of(const std::string& body) const {
   if (body == "buck") {
-    return {vehicle_pose(model_->config.vehicle, state_.vehicle), vehicle_twist(state_.vehicle)};
+    return {vehicle_pose(model_->config.vehicle, state_.vehicle),
+            vehicle_twist(model_->config.vehicle, state_.vehicle)};
   }
   const int i = model_->config.body.find_segment(body);
   CW_ASSERT(i >= 0);
@@ -204,15 +206,14 @@ MbReply MbNode::reply(const MbGrant& grant, Eigen::MatrixXd mobility, std::uint6
   r.mobility_changed = state_.contact_set != contacts_before || state_.bone_broken != bones_before;
   r.first_contact = state_.first_contact_time >= 0;
   r.state_hash = state_hash();
-  r.kinetic = dynamics_->kinetic_energy();
-  r.gravity = dynamics_->gravity_energy();
-  r.joint_elastic = dynamics_->joint_energy(state_);
-  r.joint_dissipated = -state_.energy.joint_work - r.joint_elastic;
-  r.contact_absorbed = state_.energy.car_work - state_.energy.contact_work;
-  // What the finite-element side does to the car, the car does to it: that work is the car's
-  // supply.
-  r.car_work = state_.energy.car_work - state_.energy.car_interface_work;
-  r.interface_work = state_.energy.interface_work + state_.energy.car_interface_work;
+  const MbEnergies e = energies();
+  r.kinetic = e.kinetic;
+  r.gravity = e.gravity;
+  r.joint_elastic = e.joint_elastic;
+  r.joint_dissipated = e.joint_lost();
+  r.contact_absorbed = e.contact_elastic + e.lost.sum() - e.joint_lost();
+  r.car_work = e.car_work;
+  r.interface_work = e.interface_work;
   for (const InterfaceSpec& spec : model_->config.interfaces) {
     r.bodies.push_back(motion_of(spec.body));
   }
@@ -220,9 +221,25 @@ MbReply MbNode::reply(const MbGrant& grant, Eigen::MatrixXd mobility, std::uint6
   return r;
 }
 
-double MbNode::energy_balance() const {
-  return dynamics_->kinetic_energy() + dynamics_->gravity_energy() - start_energy_ -
-         state_.energy.joint_work - state_.energy.contact_work - state_.energy.interface_work;
+MbEnergies MbNode::energies() const {
+  const Energies& books = state_.energy;
+  MbEnergies e;
+  e.kinetic = dynamics_->kinetic_energy();
+  e.gravity = dynamics_->gravity_energy();
+  e.joint_elastic = dynamics_->joint_energy(state_);
+  e.contact_elastic = dynamics_->contact_energy(state_);
+  e.lost = books.lost;
+  // What the finite-element side does to the car, the car does to it: that work is the car's
+  // supply.
+  e.car_work = books.car_work - books.car_interface_work;
+  e.interface_work = books.interface_work + books.car_interface_work;
+  e.stepping = e.kinetic + e.gravity - start_motion_ - books.joint_work - books.contact_work -
+               books.interface_work;
+  return e;
+}
+
+double MbNode::energy_balance(const MbEnergies& e) const {
+  return e.held() - e.supplied() - start_energy_;
 }
 
 std::vector<Pose> MbNode::poses() const {

@@ -34,9 +34,10 @@ class MbNode final : public MbParticipant {
   const MbState& state() const { return state_; }
   const Dynamics& dynamics() const { return *dynamics_; }
   const OdeWorld& world() const { return *world_; }
-  /// Kinetic + gravity + stored + lost - work put in, relative to the start: zero but for the
-  /// steps.
-  double energy_balance() const;
+  MbEnergies energies() const;
+  /// What energies() holds less what was supplied, relative to the start: the error of steps and
+  /// laws.
+  double energy_balance(const MbEnergies& e) const;
 
  private:
   struct Records;
@@ -58,7 +59,8 @@ class MbNode final : public MbParticipant {
   std::unique_ptr<OdeWorld> world_;
   std::unique_ptr<Dynamics> dynamics_;
   MbState state_;
-  double start_energy_ = 0;
+  double start_motion_ = 0;  ///< J, kinetic and gravity at the start
+  double start_energy_ = 0;  ///< and stored
   std::atomic<std::int64_t> progress_{0};
   std::unique_ptr<MbState> window_start_;  ///< of an iterated window
   std::unique_ptr<Records> pending_;       ///< of its last evaluation

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "mb_node/contact_law.h"
+#include "mb_node/energy_books.h"
+#include "mb_node/front_contact.h"
 #include "mb_node/joint_law.h"
 #include "mb_node/mb_config.h"
 #include "mb_node/ode_world.h"
-#include "mb_node/surface_contact.h"
 
 namespace crosswalk::mb {
 
@@ -56,6 +57,7 @@ struct MbModel {
   std::vector<PassiveLinks> passive;  ///< by segment: the leg a passive coordinate belongs to
   std::vector<SurfacePart> parts;
   std::vector<FrontChain> chains;
+  FrontPanels panels;
   std::vector<ContactLaw> car_laws;  ///< [region * components + component]
   std::vector<ContactLaw> self_laws;
   std::vector<SelfContactPair> self_pairs;
@@ -77,15 +79,16 @@ struct Energies {
   double car_work = 0;            ///< done by the moving car on its contacts
   double interface_work = 0;      ///< done by the finite-element side on the bodies
   double car_interface_work = 0;  ///< and on the car
+  LossBooks lost;
 };
 
 struct MbState {
   WorldState world;
   VehicleState vehicle;
-  std::vector<JointHistory> joints;  ///< by segment
-  std::vector<double> car_deepest;   ///< [part * components + component]
-  std::vector<double> self_deepest;  ///< by self-contact pair
-  std::vector<char> bone_broken;     ///< by bone
+  std::vector<JointHistory> joints;        ///< by segment
+  std::vector<PanelContact> car_contacts;  ///< [part * panels + panel]
+  std::vector<double> self_deepest;        ///< by self-contact pair
+  std::vector<char> bone_broken;           ///< by bone
   Energies energy;
   std::uint64_t contact_set = 0;  ///< hash of the pairs in touch in the last substep
   std::int64_t substeps = 0;

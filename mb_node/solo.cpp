@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include "common/error.h"
 #include "common/units.h"
@@ -17,7 +18,7 @@
 namespace crosswalk::mb {
 namespace {
 
-constexpr std::int64_t kWindow = 20'000;         // ns
+constexpr std::int64_t kWindow = 20'000;         // ns, or the substep when that is longer
 constexpr std::int64_t kSamplePeriod = 100'000;  // ns
 constexpr double kPeakWindow = 1e-3;             // s
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -108,13 +109,15 @@ SoloResult run_solo(const MbConfig& config, double duration) {
   const Vec3 head_start = node.dynamics().kinematics().p[head];
   const Vec3 cog_start = centre_of_mass(node.world());
   const double car_start = node.state().vehicle.y;
-  double largest_energy = 0, largest_error = 0;
+  double largest_energy = 0, largest_error = 0, largest_stepping = 0;
   MbGrant grant;
-  grant.id.window_ns = kWindow;
+  const std::int64_t window_ns =
+      std::max(kWindow, static_cast<std::int64_t>(std::llround(1e9 * config.multibody.substep)));
+  grant.id.window_ns = window_ns;
   for (;; ++grant.id.window) {
     const Twist before = node.dynamics().kinematics().V[head];
-    const MbReply reply = node.advance(grant, sink);
-    const double now = 1e-9 * static_cast<double>((grant.id.window + 1) * kWindow);
+    node.advance(grant, sink);
+    const double now = 1e-9 * static_cast<double>((grant.id.window + 1) * window_ns);
     const double t0 = node.state().first_contact_time;
     if (t0 < 0 && now > kNoContactAfter) {
       throw UserError(
@@ -122,15 +125,17 @@ SoloResult run_solo(const MbConfig& config, double duration) {
     }
     const double t = t0 < 0 ? 0 : now - t0;
     const ContactReport& contacts = node.dynamics().contacts();
-    largest_error = std::max(largest_error, std::abs(node.energy_balance()));
-    largest_energy = std::max(largest_energy, reply.kinetic);
+    const MbEnergies energies = node.energies();
+    largest_error = std::max(largest_error, std::abs(node.energy_balance(energies)));
+    largest_stepping = std::max(largest_stepping, std::abs(energies.stepping));
+    largest_energy = std::max(largest_energy, energies.kinetic);
     if (std::isnan(s.head_contact) && contacts.head_car.norm() > kHeadContactForce) {
       note_head_contact(node, before, s, t);
       s.head_drop = head_start.z() - node.dynamics().kinematics().p[head].z();
       s.head_travel = node.state().vehicle.y - car_start -
                       (node.dynamics().kinematics().p[head].y() - head_start.y());
     }
-    if (grant.id.window * kWindow % kSamplePeriod == 0 && t0 >= 0) {
+    if (grant.id.window * window_ns % kSamplePeriod == 0 && t0 >= 0) {
       SoloSample sample;
       sample.t = t;
       sample.head_displacement = node.dynamics().kinematics().p[head] - head_start;
@@ -142,7 +147,7 @@ SoloResult run_solo(const MbConfig& config, double duration) {
       sample.car_force = contacts.car_total.norm();
       sample.head_force = contacts.head_car.norm();
       sample.ground_force = contacts.ground.norm();
-      sample.energies = reply;
+      sample.energies = energies;
       result.samples.push_back(sample);
     }
     if (t0 >= 0 && t >= duration) break;
@@ -151,7 +156,9 @@ SoloResult run_solo(const MbConfig& config, double duration) {
   s.head_peak = sink.peak;
   s.throw_distance = centre_of_mass(node.world()).y() - cog_start.y();
   s.rest_speed = (node.world().linear_momentum() / s.total_mass).norm();
+  s.energies = node.energies();
   s.energy_error = largest_error / largest_energy;
+  s.stepping_error = largest_stepping / largest_energy;
   note_failures(node, s);
   s.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   return result;
@@ -177,17 +184,38 @@ void write_samples_csv(const SoloResult& result, const std::filesystem::path& fi
   if (!out) throw UserError({{}, "--csv", "a file that can be written", file.string(), ""});
   out << "t_ms,head_dx_mm,head_dy_mm,head_dz_mm,head_relative_y_mm,head_z_mm,head_speed_m_s,"
          "head_acceleration_g,car_force_N,head_force_N,ground_force_N,kinetic_J,gravity_J,"
-         "joint_elastic_J,joint_dissipated_J,contact_absorbed_J,car_work_J\n";
+         "joint_elastic_J,contact_elastic_J";
+  for (const char* loss : kMbLossNames) out << ',' << loss << "_J";
+  out << ",car_work_J,stepping_J\n";
   for (const SoloSample& s : result.samples) {
-    const MbReply& e = s.energies;
+    const MbEnergies& e = s.energies;
     fmt::print(out, "{:.2f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.4f},{:.3f},{:.2f},{:.2f},{:.2f},",
                1e3 * s.t, 1e3 * s.head_displacement.x(), 1e3 * s.head_displacement.y(),
                1e3 * s.head_displacement.z(), 1e3 * s.head_relative.y(), 1e3 * s.head_relative.z(),
                s.head_relative_speed, s.head_acceleration / kStandardGravity, s.car_force,
                s.head_force, s.ground_force);
-    fmt::print(out, "{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", e.kinetic, e.gravity,
-               e.joint_elastic, e.joint_dissipated, e.contact_absorbed, e.car_work);
+    fmt::print(out, "{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", e.kinetic, e.gravity,
+               e.joint_elastic, e.contact_elastic, fmt::join(e.lost.J, ","), e.car_work,
+               e.stepping);
   }
+}
+
+std::string energy_text(const MbEnergies& e) {
+  std::string text = "  where the energy is at the end, J\n";
+  const auto row = [&](std::string name, double energy) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += fmt::format("    {:22} {:9.1f}\n", name, energy);
+  };
+  row("work of the car", e.car_work);
+  row("kinetic", e.kinetic);
+  row("gravity", e.gravity);
+  row("stored in joints", e.joint_elastic);
+  row("stored in contacts", e.contact_elastic);
+  for (std::size_t k = 0; k < kMbLosses; ++k) {
+    row(std::string("lost: ") + kMbLossNames[k], e.lost.J[k]);
+  }
+  row("gained by steps", e.stepping);
+  return text;
 }
 
 std::string summary_text(const SoloResult& result, const std::string& name) {
@@ -196,21 +224,25 @@ std::string summary_text(const SoloResult& result, const std::string& name) {
   for (const std::string& b : s.broken) broken += (broken.empty() ? "" : ", ") + b;
   const double duration = result.samples.empty() ? 0 : result.samples.back().t;
   return fmt::format(
-      "{}: multibody only, {:.0f} ms from first contact\n"
-      "  head contact             {:.1f} ms on {}\n"
-      "  wrap-around distance     {:.0f} mm\n"
-      "  head speed over car      {:.2f} m/s, {:.2f} x car speed, {:.0f} deg below horizontal\n"
-      "  head travel along car    {:.0f} mm, drop {:.0f} mm\n"
-      "  peak head acceleration   {:.0f} g (1 ms mean)\n"
-      "  centre of mass           moved {:.2f} m along the car's path, {:.2f} m/s at the end\n"
-      "  failures                 {}\n"
-      "  energy balance           {:.2g} % of the largest kinetic energy\n"
-      "  wall time                {:.1f} s, real-time factor {:.1f}\n",
-      name, 1e3 * duration, 1e3 * s.head_contact, s.head_component, 1e3 * s.wrap_around,
-      s.head_speed, s.head_speed / s.car_speed, s.head_angle / kDegree, 1e3 * s.head_travel,
-      1e3 * s.head_drop, s.head_peak / kStandardGravity, s.throw_distance, s.rest_speed,
-      broken.empty() ? "none" : broken, 100 * s.energy_error, s.wall,
-      s.wall / std::max(1e-9, duration));
+             "{}: multibody only, {:.0f} ms from first contact\n"
+             "  head contact             {:.1f} ms on {}\n"
+             "  wrap-around distance     {:.0f} mm\n"
+             "  head speed over car      {:.2f} m/s, {:.2f} x car speed, {:.0f} deg below "
+             "horizontal\n"
+             "  head travel along car    {:.0f} mm, drop {:.0f} mm\n"
+             "  peak head acceleration   {:.0f} g (1 ms mean)\n"
+             "  centre of mass           moved {:.2f} m along the car's path, {:.2f} m/s at the "
+             "end\n"
+             "  failures                 {}\n"
+             "  energy balance           {:.2g} % of the largest kinetic energy, steps alone "
+             "{:.2g} %\n"
+             "  wall time                {:.1f} s, real-time factor {:.1f}\n",
+             name, 1e3 * duration, 1e3 * s.head_contact, s.head_component, 1e3 * s.wrap_around,
+             s.head_speed, s.head_speed / s.car_speed, s.head_angle / kDegree, 1e3 * s.head_travel,
+             1e3 * s.head_drop, s.head_peak / kStandardGravity, s.throw_distance, s.rest_speed,
+             broken.empty() ? "none" : broken, 100 * s.energy_error, 100 * s.stepping_error, s.wall,
+             s.wall / std::max(1e-9, duration)) +
+         energy_text(s.energies);
 }
 
 }  // namespace crosswalk::mb

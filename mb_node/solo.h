@@ -19,7 +19,7 @@ struct SoloSample {
   double head_relative_speed = 0;
   double head_acceleration = 0;
   double car_force = 0, head_force = 0, ground_force = 0;
-  MbReply energies;
+  MbEnergies energies;
 };
 
 /// What the published bands speak of; SI, times from t0, NaN when it did not happen.
@@ -35,9 +35,11 @@ struct SoloSummary {
   double head_peak = 0;                  ///< m/s2, mean over 1 ms
   double throw_distance = 0;             ///< m, COG from its start to its last position, along y
   double rest_speed = 0;                 ///< m/s of the COG at the end
-  double energy_error = 0;               ///< balance over the largest energy
+  MbEnergies energies;                   ///< at the end
+  double energy_error = 0;               ///< of held against supplied, over the largest kinetic
+  double stepping_error = 0;             ///< the part of steps and joint constraints
   double total_mass = 0;                 ///< kg
-  double stature = 0;        ///< m
+  double stature = 0;                    ///< m
   double wall = 0;                       ///< s
   std::vector<std::string> broken;       ///< bones and ligaments
 };
@@ -51,13 +53,15 @@ struct SoloResult {
 
 inline constexpr double kHeadContactForce = 50;  ///< N: the head has struck the car [E]
 
-/// Runs for `duration` after the first contact, in windows of 20 us.
+/// Runs for `duration` after the first contact, in windows of 20 us, or of the substep when longer.
 SoloResult run_solo(const MbConfig& config, double duration);
 /// Reads a scenario as a multibody-only run.
 MbConfig read_solo_config(const std::filesystem::path& scenario);
 MbConfig read_solo_config(ConfigDocument& document);
 
 void write_samples_csv(const SoloResult& result, const std::filesystem::path& file);
+/// Every law's book.
+std::string energy_text(const MbEnergies& energies);
 std::string summary_text(const SoloResult& result, const std::string& name);
 
 }  // namespace crosswalk::mb

@@ -13,6 +13,7 @@ void visit(Archive& archive, State& state) {
   archive.value(state.vehicle.y);
   archive.value(state.vehicle.v);
   archive.value(state.vehicle.dive);
+  archive.value(state.vehicle.dive_rate);
   for (auto& joint : state.joints) {
     for (auto& coordinate : joint.coordinate) {
       archive.value(coordinate.low.deepest);
@@ -22,7 +23,12 @@ void visit(Archive& archive, State& state) {
     }
     archive.value(joint.bone.is_broken);
   }
-  archive.values(state.car_deepest);
+  for (auto& contact : state.car_contacts) {
+    archive.value(contact.deepest);
+    archive.value(contact.pressed);
+    archive.value(contact.unpressed);
+    archive.value(contact.is_touching);
+  }
   archive.values(state.self_deepest);
   archive.values(state.bone_broken);
   archive.value(state.energy.joint_work);
@@ -30,6 +36,7 @@ void visit(Archive& archive, State& state) {
   archive.value(state.energy.car_work);
   archive.value(state.energy.interface_work);
   archive.value(state.energy.car_interface_work);
+  archive.value(state.energy.lost);
   archive.value(state.contact_set);
   archive.value(state.substeps);
   archive.value(state.time);

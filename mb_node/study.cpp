@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <sstream>
 
@@ -29,6 +30,33 @@ std::string cell(double value, int digits, const Band* band) {
   const bool is_inside = value >= band->min && value <= band->max;
   return fmt::format("{:>8} {:12}", shown,
                      fmt::format("{}{}..{}", is_inside ? "in " : "OUT ", band->min, band->max));
+}
+
+using Filter = std::function<bool(const StudyCase&)>;
+
+void print_kinematics(const fs::path& scenarios, const Filter& is_wanted) {
+  const std::vector<Band> bands = read_bands(scenarios / "reference/kinematics_bands.csv");
+  fmt::print("{:16} {:19}{:>4}  {:21}{:21}{:21}{:21}{:21}{:21}{:21}{:21}  {}\n", "subject", "car",
+             "km/h", "head contact ms", "WAD mm", "WAD / stature", "speed / car speed", "angle deg",
+             "travel mm", "drop mm", "peak g", "struck");
+  for (const StudyCase& c : kinematics_cases(scenarios)) {
+    if (!is_wanted(c)) continue;
+    fmt::print("{}", kinematics_row(c, run_case(c, scenarios), bands));
+    std::fflush(stdout);
+  }
+  fmt::print(
+      "Car fronts, contact curves and bands marked E or L are estimates or recollections: see "
+      "scenarios/reference/kinematics_bands.csv.\n");
+}
+
+void print_convergence(const fs::path& scenarios, const Filter& is_wanted) {
+  fmt::print("{:14}{:>14}{:>10}{:>14}{:>10}{:>14}{:>14}{:>10}\n", "stepper, step", "contact ms",
+             "WAD mm", "speed m/s", "peak g", "balance %", "steps %", "wall s");
+  for (const StudyCase& c : convergence_cases()) {
+    if (!is_wanted(c)) continue;
+    fmt::print("{}", convergence_row(c, run_case(c, scenarios)));
+    std::fflush(stdout);
+  }
 }
 
 }  // namespace
@@ -116,6 +144,28 @@ std::string kinematics_row(const StudyCase& c, const SoloSummary& s,
                      cell(s.head_peak / kStandardGravity, 0, band("peak_g")), s.head_component);
 }
 
+std::vector<StudyCase> convergence_cases() {
+  std::vector<StudyCase> cases;
+  for (const char* stepper : {"direct", "quick"}) {
+    for (const double substep_us : {5.0, 10.0, 20.0, 50.0, 100.0}) {
+      const std::string name = fmt::format("{} {:g} us", stepper, substep_us);
+      cases.push_back({name, "generic_sedan_buck", 40,
+                       fmt::format("base = \"v2370.toml\"\n[multibody]\nstepper = \"{}\"\n"
+                                   "substep_us = {:.1f}\n",
+                                   stepper, substep_us),
+                       0.2});
+    }
+  }
+  return cases;
+}
+
+std::string convergence_row(const StudyCase& c, const SoloSummary& s) {
+  return fmt::format("{:14}{:14.3f}{:10.2f}{:14.4f}{:10.2f}{:14.4f}{:14.4f}{:10.1f}\n", c.name,
+                     1e3 * s.head_contact, 1e3 * s.wrap_around, s.head_speed,
+                     s.head_peak / kStandardGravity, 100 * s.energy_error, 100 * s.stepping_error,
+                     s.wall);
+}
+
 fs::path find_scenarios() {
   std::error_code ignored;
   for (fs::path start :
@@ -133,37 +183,34 @@ fs::path find_scenarios() {
 }
 
 NodeCommand study_command() {
-  return {
-      "study", "Run many multibody cases and print their table beside published bands.",
-      [](CLI::App& options) -> std::function<ExitCode()> {
-        struct Arguments {
-          std::string what = "kinematics", scenarios, only;
-        };
-        auto args = std::make_shared<Arguments>();
-        options.add_option("what", args->what, "kinematics")->check(CLI::IsMember({"kinematics"}));
-        options.add_option("--scenarios", args->scenarios, "folder of the scenario files");
-        options.add_option("--only", args->only, "only cases whose car or name contains this");
-        return [args] {
-          const fs::path scenarios =
-              args->scenarios.empty() ? find_scenarios() : fs::path(args->scenarios);
-          const std::vector<Band> bands = read_bands(scenarios / "reference/kinematics_bands.csv");
-          fmt::print("{:16} {:19}{:>4}  {:21}{:21}{:21}{:21}{:21}{:21}{:21}{:21}  {}\n", "subject",
-                     "car", "km/h", "head contact ms", "WAD mm", "WAD / stature",
-                     "speed / car speed", "angle deg", "travel mm", "drop mm", "peak g", "struck");
-          for (const StudyCase& c : kinematics_cases(scenarios)) {
-            const bool is_wanted = args->only.empty() ||
-                                   c.vehicle.find(args->only) != std::string::npos ||
-                                   c.name.find(args->only) != std::string::npos;
-            if (!is_wanted) continue;
-            fmt::print("{}", kinematics_row(c, run_case(c, scenarios), bands));
-            std::fflush(stdout);
-          }
-          fmt::print(
-              "Car fronts, contact curves and bands marked E or L are estimates or "
-              "recollections: see scenarios/reference/kinematics_bands.csv.\n");
-          return ExitCode::Done;
-        };
-      }};
+  return {"study", "Run many multibody cases and print their table.",
+          [](CLI::App& options) -> std::function<ExitCode()> {
+            struct Arguments {
+              std::string what = "kinematics", scenarios, only;
+            };
+            auto args = std::make_shared<Arguments>();
+            options
+                .add_option("what", args->what,
+                            "kinematics: tests and cars beside published bands; convergence: V2370 "
+                            "over the time step")
+                ->check(CLI::IsMember({"kinematics", "convergence"}));
+            options.add_option("--scenarios", args->scenarios, "folder of the scenario files");
+            options.add_option("--only", args->only, "only cases whose car or name contains this");
+            return [args] {
+              const fs::path scenarios =
+                  args->scenarios.empty() ? find_scenarios() : fs::path(args->scenarios);
+              const auto is_wanted = [&](const StudyCase& c) {
+                return args->only.empty() || c.vehicle.find(args->only) != std::string::npos ||
+                       c.name.find(args->only) != std::string::npos;
+              };
+              if (args->what == "kinematics") {
+                print_kinematics(scenarios, is_wanted);
+              } else {
+                print_convergence(scenarios, is_wanted);
+              }
+              return ExitCode::Done;
+            };
+          }};
 }
 
 }  // namespace crosswalk::mb

@@ -37,6 +37,10 @@ SoloSummary run_case(const StudyCase& study_case, const std::filesystem::path& s
 std::string kinematics_row(const StudyCase& study_case, const SoloSummary& s,
                            const std::vector<Band>& bands);
 
+/// V2370 by every stepper over the substep.
+std::vector<StudyCase> convergence_cases();
+std::string convergence_row(const StudyCase& study_case, const SoloSummary& s);
+
 /// `scenarios/` beside or above the working folder or the program.
 std::filesystem::path find_scenarios();
 

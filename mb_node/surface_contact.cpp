@@ -214,8 +214,16 @@ std::optional<FrontOverlap> overlap_with_front(const PosedEllipsoid& e, const Ve
     try_vertex(last.end, last.normal, over, chain.facets.back());
   }
   if (best <= 0) return std::nullopt;
-  // Past a closed end the next chain takes over.
   const Vec2 deepest = ellipse.deepest(n);
+  // Facets in one plane: the one that the deepest point lies on.
+  while (best_facet != chain.facets.back()) {
+    const FrontFacet& here = front.facets[best_facet];
+    const FrontFacet& above = front.facets[best_facet + 1];
+    const bool is_one_plane = here.normal.dot(above.normal) > 1 - 1e-12;
+    if (!is_one_plane || (deepest - here.end).dot(here.end - here.begin) <= 0) break;
+    ++best_facet;
+  }
+  // Past a closed end the next chain takes over.
   const double before =
       (deepest - first.begin).dot(first.end - first.begin) / (first.end - first.begin).norm();
   const double after =

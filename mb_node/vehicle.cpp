@@ -74,7 +74,9 @@ void advance_vehicle(const Vehicle& vehicle, double t, double dt, double force_y
   }
   state.v = speed_at(vehicle, t + dt);
   state.y += 0.5 * (before + state.v) * dt;
-  state.dive = dive_at(vehicle, t + dt);
+  const double dive = dive_at(vehicle, t + dt);
+  state.dive_rate = (dive - state.dive) / dt;
+  state.dive = dive;
 }
 
 Pose vehicle_pose(const Vehicle& vehicle, const VehicleState& state) {
@@ -84,6 +86,10 @@ Pose vehicle_pose(const Vehicle& vehicle, const VehicleState& state) {
   return upright * pivot * Pose{exp_rotation({-state.dive, 0, 0}), Vec3::Zero()} * pivot.inverse();
 }
 
-Twist vehicle_twist(const VehicleState& state) { return {Vec3(0, state.v, 0), Vec3::Zero()}; }
+Twist vehicle_twist(const Vehicle& vehicle, const VehicleState& state) {
+  const Vec3 pivot(vehicle.lateral_offset, state.y - kDivePivot, 0);
+  const Twist about_pivot{Vec3(0, state.v, 0), Vec3(-state.dive_rate, 0, 0)};
+  return about_pivot.shifted(vehicle_pose(vehicle, state).p - pivot);
+}
 
 }  // namespace crosswalk::mb

@@ -30,9 +30,10 @@ struct Vehicle {
 };
 
 struct VehicleState {
-  double y = 0;     ///< m, foremost point
-  double v = 0;     ///< m/s
-  double dive = 0;  ///< rad
+  double y = 0;          ///< m, foremost point
+  double v = 0;          ///< m/s
+  double dive = 0;       ///< rad
+  double dive_rate = 0;  ///< rad/s
 };
 
 Vehicle read_vehicle(ConfigTable vehicle);
@@ -42,6 +43,6 @@ void advance_vehicle(const Vehicle& vehicle, double t, double dt, double force_y
                      VehicleState& state);
 /// Pose of the front's frame (contact_shapes.h, body `buck`), and its twist.
 Pose vehicle_pose(const Vehicle& vehicle, const VehicleState& state);
-Twist vehicle_twist(const VehicleState& state);
+Twist vehicle_twist(const Vehicle& vehicle, const VehicleState& state);
 
 }  // namespace crosswalk::mb

@@ -107,6 +107,7 @@ void set_surfaces(MbModel& model) {
   }
   const VehicleFront& front = model.config.vehicle.front;
   model.chains = convex_chains(front);
+  model.panels = front_panels(front, model.chains);
   for (const Region& region : body.regions) {
     for (int c = 0; c < model.components(); ++c) {
       const auto facet = std::find(front.facet_component.begin(), front.facet_component.end(), c) -
@@ -213,7 +214,7 @@ MbState initial_state(const MbModel& model) {
   }
   state.vehicle = initial_state(model.config.vehicle, clear - model.config.vehicle.gap);
   state.joints.resize(n);
-  state.car_deepest.assign(model.parts.size() * model.components(), 0);
+  state.car_contacts.resize(model.parts.size() * model.panels.count());
   state.self_deepest.assign(model.self_pairs.size(), 0);
   state.bone_broken.assign(model.bone_count, 0);
   return state;

@@ -63,6 +63,32 @@ TEST(ContactLaw, WorkOfACycleIsTheLossInClosedForm) {
   EXPECT_NEAR(down, law.recoverable_energy(deepest), 1e-5 * up);
 }
 
+TEST(ContactLaw, StoredEnergyIsTheWorkOfTheWayBack) {
+  const ContactLaw law(linear(8e4, 0.5, 1.5), linear(3e4, 0.8, 1));
+  const double deepest = 0.06;
+  const int n = 60000;
+  double work = 0;
+  for (int i = 0; i < n; ++i) {
+    const double d = deepest * (i + 0.5) / n;
+    work += law.force(d, deepest) * deepest / n;
+    if (i % 12000 != 11999) continue;
+    const double reached = deepest * (i + 1) / n;
+    EXPECT_NEAR(law.stored_energy(reached, deepest), work, 1e-5 * law.recoverable_energy(deepest));
+  }
+}
+
+TEST(ContactLaw, PenetrationHoldingIsTheInverseOfTheStoredEnergy) {
+  const ContactLaw law(linear(8e4, 0.5, 1.5), linear(3e4, 0.8, 1));
+  const double deepest = 0.06;
+  for (const double d : {0.05, 0.055, 0.06, 0.07, 0.1}) {
+    const double energy = law.stored_energy(d, std::max(d, deepest));
+    EXPECT_NEAR(law.penetration_holding(energy, deepest, 1), d, 1e-9) << d;
+    EXPECT_NEAR(law.penetration_holding(energy, deepest, 0.8 * d), 0.8 * d, 1e-9) << d;
+  }
+  EXPECT_NEAR(law.penetration_holding(0, deepest, 1), law.permanent(deepest), 1e-9);
+  EXPECT_EQ(law.penetration_holding(0, 0, 1), 0);
+}
+
 TEST(ContactLaw, BreakingSideDropsTheForceAtConstantPenetration) {
   // Glass: 4 kN at 4 mm, then 2 kN at 8 mm; soft flesh in series cannot follow: it snaps through.
   const Characteristic glass = {

@@ -113,14 +113,15 @@ TEST(Bone, BreaksOnceAtItsMoment) {
   EXPECT_EQ(law.bone, "tibia_l");
   BoneHistory history;
   const double limit = 310.0 / 2300.0;
-  EXPECT_NEAR(bone_moment(law, {0.6 * limit, 0.79 * limit, 0}, Vec3::Zero(), true, history).norm(),
-              310 * std::hypot(0.6, 0.79), 0.1);
+  EXPECT_NEAR(
+      bone_moment(law, {0.6 * limit, 0.79 * limit, 0}, Vec3::Zero(), true, history).total().norm(),
+      310 * std::hypot(0.6, 0.79), 0.1);
   EXPECT_FALSE(history.is_broken);
   bone_moment(law, {1.01 * limit, 0, 0}, Vec3::Zero(), false, history);
   EXPECT_FALSE(history.is_broken) << "another fracture of this bone came first";
-  const Vec3 after = bone_moment(law, {1.01 * limit, 0, 0}, Vec3::Zero(), true, history);
+  const BoneMoment after = bone_moment(law, {1.01 * limit, 0, 0}, Vec3::Zero(), true, history);
   EXPECT_TRUE(history.is_broken);
-  EXPECT_NEAR(after[0], -0.02 * 1.01 * 310, 0.05);
+  EXPECT_NEAR(after.total()[0], -0.02 * 1.01 * 310, 0.05);
 }
 
 TEST(PassiveMoments, MatchThePublishedCurves) {
@@ -151,7 +152,7 @@ TEST(Neck, BendsWithinThePublishedFlexionCorridor) {
       for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
         CoordinateHistory fresh;
-        (-restraint_moment(law, {}, middle, 0, fresh) < moment ? low : high) = middle;
+        (-restraint_moment(law, {}, middle, 0, fresh).total() < moment ? low : high) = middle;
       }
       sum += low / kDegree;
     }

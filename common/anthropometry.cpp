@@ -51,10 +51,18 @@ constexpr std::array<Measure, 35> kMeasures = {{
 
 constexpr Range kMassRange{8, 300};       // kg, infant to heaviest adult
 constexpr Range kStatureRange{0.6, 2.4};  // m
-constexpr double kImplausible = 0.45;     // relative distance from the predicted measure
+constexpr double kImplausible = 0.45;     // relative distance from the predicted measure [E]
+// Heights keep close to stature: a six-year-old's seated height is 4 % more of it than an adult's,
+// an infant's 25 % [E].
+constexpr double kImplausibleHeight = 0.30;
 
 Dimension dimension(const Measure& measure) {
   return measure.kind == K::Mass ? Dimension::Mass : Dimension::Length;
+}
+
+/// Shoulder to seated height, and the seated knee: shares of stature.
+bool is_height(const Measure& measure) {
+  return (measure.number >= 3 && measure.number <= 6) || measure.number == 24;
 }
 
 std::string doc(const Measure& measure) {
@@ -117,18 +125,23 @@ Anthropometry read_anthropometry(ConfigTable subject, const Anthropometry& refer
   a.mass = subject.quantity("mass", Dimension::Mass, kMassRange, doc(kMeasures[0]));
   a.standing_height =
       subject.quantity("standing_height", Dimension::Length, kStatureRange, doc(kMeasures[1]));
+  // What is refused is replaced, so that the rest of the document is still read.
+  if (std::isnan(a.mass)) a.mass = reference.mass;
+  if (std::isnan(a.standing_height)) a.standing_height = reference.standing_height;
   for (const Measure& measure : kMeasures) {
     if (measure.number <= 2) continue;
     const double predicted = predicted_measure(measure, reference, a.mass, a.standing_height);
     const double given =
         subject.quantity_or(measure.name, dimension(measure), kPositive, predicted, doc(measure));
     a.*measure.value = given;
-    if (std::abs(given / predicted - 1) > kImplausible) {
+    const double allowed = is_height(measure) ? kImplausibleHeight : kImplausible;
+    if (std::abs(given / predicted - 1) > allowed) {
       subject.problem(
           measure.name,
           fmt::format("within {:.0f} % of {:.0f} mm, the value for this stature and mass",
-                      100 * kImplausible, 1e3 * predicted),
+                      100 * allowed, 1e3 * predicted),
           fmt::format("{:.1f} mm", 1e3 * given));
+      a.*measure.value = predicted;
     }
   }
   check_order(subject, a);

@@ -31,10 +31,33 @@ TEST(Anthropometry, RefusesContradictionsWithTheMeasureAndTheAmount) {
     FAIL() << "accepted";
   } catch (const UserError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("subject.knee_height_seated"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("110.0 mm too much"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("1200.0 mm"));
     EXPECT_THAT(error.what(), testing::HasSubstr("subject.head_length"));
   }
   EXPECT_THROW(load_subject("v2370", "foot_length_mm = -3.0\n"), UserError);
+}
+
+std::string refusal(const std::string& subject, const std::string& more) {
+  try {
+    load_subject(subject, more);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Anthropometry, RefusesASeatedHeightThatLeavesNoLegs) {
+  const std::string text = refusal("male_50", "seated_height_mm = 1300\n");
+  EXPECT_THAT(text, testing::HasSubstr("subject.seated_height"));
+  EXPECT_THAT(text, testing::HasSubstr("1300.0 mm"));
+}
+
+TEST(Anthropometry, RefusesEveryNegativeMeasureByName) {
+  for (const Measure& m : anthropometry_measures()) {
+    const std::string name(m.name), unit = m.kind == MeasureKind::Mass ? "_kg" : "_mm";
+    EXPECT_THAT(refusal("male_50", name + unit + " = -500\n"), testing::HasSubstr(name)) << name;
+    EXPECT_THAT(refusal("male_50", name + unit + " = 0\n"), testing::HasSubstr(name)) << name;
+  }
 }
 
 // Heights in mm from an independent computation of the same 16 equations.

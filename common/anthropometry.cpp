@@ -126,14 +126,14 @@ Anthropometry read_anthropometry(ConfigTable subject, const Anthropometry& refer
   a.standing_height =
       subject.quantity("standing_height", Dimension::Length, kStatureRange, doc(kMeasures[1]));
   // What is refused is replaced, so that the rest of the document is still read.
-  if (std::isnan(a.mass)) a.mass = reference.mass;
-  if (std::isnan(a.standing_height)) a.standing_height = reference.standing_height;
+  if (!(a.mass > 0)) a.mass = reference.mass;
+  if (!(a.standing_height > 0)) a.standing_height = reference.standing_height;
   for (const Measure& measure : kMeasures) {
     if (measure.number <= 2) continue;
     const double predicted = predicted_measure(measure, reference, a.mass, a.standing_height);
     const double given =
         subject.quantity_or(measure.name, dimension(measure), kPositive, predicted, doc(measure));
-    a.*measure.value = given;
+    a.*measure.value = given > 0 ? given : predicted;
     const double allowed = is_height(measure) ? kImplausibleHeight : kImplausible;
     if (std::abs(given / predicted - 1) > allowed) {
       subject.problem(

@@ -8,10 +8,12 @@ namespace crosswalk::mb {
 
 /// What the multibody side's laws take out of the motion for good, one book each.
 enum class MbLoss : int {
-  JointDamping,       ///< damping of joints, bones, scapulae and wrist tie
-  JointFriction,      ///< dry friction of joints and broken bones
-  JointHysteresis,    ///< unloading of stops, torn ligaments, broken bones
-  JointPassive,       ///< against the two-joint passive moments of hip, knee and ankle
+  JointDamping,     ///< damping of joints, bones, scapulae and wrist tie
+  JointFriction,    ///< dry friction of joints and broken bones
+  JointHysteresis,  ///< unloading of stops, torn ligaments, broken bones
+  /// Against laws without a potential, which give back as well: the two-joint passive moments of
+  /// hip, knee and ankle, and the knee ligaments' weakening in flexion.
+  JointPassive,
   ContactHysteresis,  ///< dents of car and flesh; what a car part keeps when the body passes on
   ContactViscous,     ///< rate terms, ground damping
   ContactFriction

@@ -195,7 +195,7 @@ void JointLoads::book(const Kinematics& before, const Kinematics& after, double 
     lost[MbLoss::JointDamping] -= t.damping.dot(rate) * dt;
     lost[MbLoss::JointFriction] -= t.friction.dot(rate) * dt;
     lost[MbLoss::JointPassive] -= t.passive.dot(rate) * dt;
-    lost[MbLoss::JointHysteresis] += t.weakening * rate[0] * dt;
+    lost[MbLoss::JointPassive] += t.weakening * rate[0] * dt;
   }
   for (const Drag& d : drags_) {
     const Vec3 v = 0.5 * (before.velocity(d.first, d.point) + after.velocity(d.first, d.point) -

@@ -138,7 +138,7 @@ TEST(Passage, OntoAStifferElasticPanelKeepsTheEnergyExactly) {
   const double scale = 0.5 * k1 * d * d;
   EXPECT_NEAR(b.end, b.start, 1e-3 * scale);
   EXPECT_LT(b.highest, b.start + 1e-3 * scale);
-  EXPECT_NEAR(b.left, 0, 1e-9);
+  EXPECT_NEAR(b.left, 0, 1e-9 * scale);
 }
 
 TEST(Passage, HandsOverTheDepthThatHoldsTheStoredEnergy) {

@@ -38,10 +38,10 @@ json object_member(const json& object, const char* key) {
 
 std::string subtitle_of(const Summary& s, const json& mb) {
   const json subject = object_member(mb, "subject");
-  std::string out =
-      s.manifest.has_head_alone() ? "Finite-element head alone, moved or thrown as in another run"
-      : s.manifest.has_fe ? "Multibody pedestrian with finite-element head, neck and windshield"
-                          : "Multibody pedestrian";
+  std::string out = s.manifest.has_head_alone()
+                        ? "Finite-element head alone, moved or thrown as in another run"
+                    : s.manifest.has_fe ? "Multibody pedestrian with finite-element head and neck"
+                                        : "Multibody pedestrian";
   if (subject.contains("standing_height_m") && subject["standing_height_m"].is_number()) {
     out += fmt::format(" · {:.0f} mm, {:.1f} kg", 1e3 * subject["standing_height_m"].get<double>(),
                        subject.value("mass_kg", 0.0));

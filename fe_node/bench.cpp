@@ -4,16 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <omp.h>
 
-#include "common/error.h"
-#include "common/units.h"
-#include "fe_node/element/hex8.h"
-#include "fe_node/generate/primitives.h"
-#include "fe_node/mesh/node_order.h"
+#include "fe_node/bench_workloads.h"
 #include "fe_node/solver.h"
 
 namespace crosswalk::fe {
@@ -25,9 +22,12 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Flops of a one-point brick step counted in hex8_kernel.h (a multiply-add as two), and bytes it
-/// moves: 8 node records, 8 corner forces written and read, undeformed shape, connectivity.
-constexpr double kFlopsPerHex = 1150, kBytesPerHex = 8 * 64 + 2 * 8 * 32 + 344 + 32;
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
 
 /// Processor time of all threads so far, s: what a machine shared with other work really gave.
 double processor_time() {
@@ -38,143 +38,56 @@ double processor_time() {
 
 /// Multiply-adds on independent registers, flop per processor second, all threads at once.
 double fma_rate(int threads) {
-  constexpr int kChains = 16;
+  constexpr int kChains = 10;  // latency times units, within the registers
   constexpr long kRounds = 4'000'000;
   double total = 0;
   const double start = processor_time();
 #pragma omp parallel num_threads(threads) reduction(+ : total)
   {
     std::array<Lanes, kChains> a;
-    for (int i = 0; i < kChains; ++i) a[i].setConstant(1e-3 * i);
+    for (int i = 0; i < kChains; ++i) a[i] = Lanes::Constant(1e-3 * i);
     const Lanes x = Lanes::Constant(0.999999), y = Lanes::Constant(1e-9);
     for (long round = 0; round < kRounds; ++round)
       for (Lanes& chain : a) chain = chain * x + y;
-    for (const Lanes& chain : a) total += chain.sum();
+    for (const Lanes& chain : a) total += sum(chain);
   }
   const double rate =
       2.0 * kChains * kLanes * static_cast<double>(kRounds) * threads / (processor_time() - start);
   return total > -1 ? rate : 0;  // keeps the sums alive
 }
 
-/// Renumbers in Hilbert order; elements by their first node.
-Mesh ordered(const Mesh& mesh) {
-  Mesh out;
-  const std::vector<int> order = hilbert_order(mesh.position);
-  std::vector<int> now(order.size());
-  for (std::size_t n = 0; n < order.size(); ++n) {
-    now[order[n]] = static_cast<int>(n);
-    out.position.push_back(mesh.position[order[n]]);
-    out.node_id.push_back(mesh.node_id[order[n]]);
+/// Copies two arrays of 128 MB into a third, bytes per processor second, all threads at once.
+double memory_rate(int threads) {
+  constexpr long kCount = 16L << 20;
+  constexpr int kRounds = 4;
+  std::vector<double> a(kCount, 1), b(kCount, 2), c(kCount, 3);
+  double start = 0;
+  for (int round = 0; round <= kRounds; ++round) {  // the first one only brings the pages in
+    if (round == 1) start = processor_time();
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (long i = 0; i < kCount; ++i) c[i] = a[i] + 1e-3 * b[i];
   }
-  out.parts = mesh.parts;
-  const ElementTable& table = mesh.table(ElementKind::Hex8);
-  std::vector<std::pair<int, int>> by_first;
-  for (int e = 0; e < table.size(); ++e) {
-    int first = now[table.nodes[e * 8]];
-    for (int k = 1; k < 8; ++k) first = std::min(first, now[table.nodes[e * 8 + k]]);
-    by_first.emplace_back(first, e);
-  }
-  std::sort(by_first.begin(), by_first.end());
-  ElementTable& target = out.table(ElementKind::Hex8);
-  for (const auto& [first, e] : by_first) {
-    for (int k = 0; k < 8; ++k) target.nodes.push_back(now[table.nodes[e * 8 + k]]);
-    target.part.push_back(table.part[e]);
-    target.id.push_back(table.id[e]);
-  }
-  return out;
+  return kRounds * 3.0 * 8.0 * kCount / (processor_time() - start);
 }
 
-std::vector<int> elements_of(const Mesh& mesh, int part) {
-  std::vector<int> elements;
-  const ElementTable& table = mesh.table(ElementKind::Hex8);
-  for (int e = 0; e < table.size(); ++e)
-    if (table.part[e] == part) elements.push_back(e);
-  return elements;
-}
-
-/// A: block of 1 mm steel bricks, one face held, a smooth initial velocity of 1 m/s.
-Model steel_block(std::array<int, 3> cells) {
-  Mesh mesh;
-  const auto node = [&](int i, int j, int k) {
-    return (k * (cells[1] + 1) + j) * (cells[0] + 1) + i;
-  };
-  for (int k = 0; k <= cells[2]; ++k)
-    for (int j = 0; j <= cells[1]; ++j)
-      for (int i = 0; i <= cells[0]; ++i) {
-        mesh.position.push_back(1e-3 * Vec3(i, j, k));
-        mesh.node_id.emplace_back(mesh.node_count());
-      }
-  ElementTable& table = mesh.table(ElementKind::Hex8);
-  for (int k = 0; k < cells[2]; ++k)
-    for (int j = 0; j < cells[1]; ++j)
-      for (int i = 0; i < cells[0]; ++i) {
-        for (int z : {k, k + 1})
-          table.nodes.insert(table.nodes.end(), {node(i, j, z), node(i + 1, j, z),
-                                                 node(i + 1, j + 1, z), node(i, j + 1, z)});
-        table.part.push_back(0);
-        table.id.emplace_back(table.size());
-      }
-  mesh.parts.push_back({DeckId(1), "steel", false});
-  Model model;
-  model.mesh = ordered(mesh);
-  model.blocks.push_back(make_hex8_block(model.mesh, 0, elements_of(model.mesh, 0),
-                                         Elastic::from_young(7850, 210e9, 0.3),
-                                         {HourglassForm::Viscous, 0.1}));
-  for (int n = 0; n < model.mesh.node_count(); ++n) {
-    const Vec3& p = model.mesh.position[n];
-    if (p.z() == 0)
-      model.fixed.push_back({n, {true, true, true}, {}});
-    else
-      model.start_velocities.push_back(
-          {{n}, Vec3(std::sin(60 * p.z()), std::cos(60 * p.x()), std::sin(60 * p.y()))});
+/// Bytes that a step must bring through the core per element, from whatever cache: node records of
+/// its corners, its history in and out, undeformed shape and connectivity, its share of force rows
+/// and of the nodes' own update.
+double bytes_per_element(const Workload& work) {
+  const Model& model = work.model;
+  double bytes = 0;
+  for (std::size_t b = 0; b < model.blocks.size(); ++b) {
+    if (model.sleeper && model.sleeper->blocks[b]) continue;
+    const ElementBlock& block = *model.blocks[b];
+    const bool is_brick = block.kind() == ElementKind::Hex8;
+    bytes += block.element_count() *
+             (block.corners() * (64 + 4 + 2 + (block.has_moments() ? 24 : 0)) +
+              16.0 * block.history_per_group() / kLanes + (is_brick ? 368.0 : 16.0));
   }
-  model.finish();
-  return model;
-}
-
-/// B: brain in a skull, an ellipsoid turned by a pulse of 10 krad/s2.
-Model brain_ellipsoid() {
-  constexpr int kCells = 26, kBrain = 1, kSkull = 2;
-  const Vec3 outer(0.085, 0.070, 0.065), inner = outer - Vec3::Constant(0.006);
-  generate::MeshDraft draft;
-  const generate::CubedSphere sphere(kCells);
-  const std::vector<int> surface = generate::add_ball(
-      draft, sphere, [&](const Vec3& p) { return Vec3(p.cwiseProduct(inner)); },
-      [](const Vec3&) { return kBrain; });
-  generate::add_layer(
-      draft, sphere, surface, [](int) { return true; },
-      [&](int n) { return Vec3(sphere.direction(n).cwiseProduct(outer)); }, kSkull);
-  Mesh mesh;
-  for (const Vec3& p : draft.nodes) {
-    mesh.position.push_back(p);
-    mesh.node_id.emplace_back(mesh.node_count());
-  }
-  ElementTable& table = mesh.table(ElementKind::Hex8);
-  for (const generate::Hex& hex : draft.hexes) {
-    table.nodes.insert(table.nodes.end(), hex.node.begin(), hex.node.end());
-    table.part.push_back(hex.part - 1);
-    table.id.emplace_back(table.size());
-  }
-  mesh.parts = {{DeckId(1), "brain", false}, {DeckId(2), "skull", false}};
-  Model model;
-  model.mesh = ordered(mesh);
-  model.blocks.push_back(
-      make_hex8_block(model.mesh, 0, elements_of(model.mesh, 0),
-                      Viscoelastic::from_single_term(1040, 2.19e9, 6e3, 1.2e3, 80), {}));
-  model.blocks.push_back(make_hex8_block(model.mesh, 1, elements_of(model.mesh, 1),
-                                         Elastic::from_young(1700, 6.5e9, 0.22), {}));
-  for (int n = 0; n < model.mesh.node_count(); ++n)
-    model.start_velocities.push_back({{n}, Vec3(0, 0, 30).cross(model.mesh.position[n])});
-  model.finish();
-  return model;
-}
-
-Model workload(const std::string& name) {
-  if (name == "A20k") return steel_block({28, 28, 26});
-  if (name == "A") return steel_block({50, 50, 40});
-  if (name == "A500k") return steel_block({80, 80, 79});
-  if (name == "B") return brain_ellipsoid();
-  throw UserError(Problem{{}, "workload", "A20k, A, A500k or B", name, {}});
+  const std::size_t rows = model.tiles.force_row_count + model.tiles.moment_row_count;
+  const int nodes = awake_node_count(model, work.start);
+  bytes += 2 * 32.0 * static_cast<double>(rows) + nodes * (2 * 64 + 2 * 24 + 8.0);
+  return bytes / work.elements;
 }
 
 struct Measurement {
@@ -182,46 +95,74 @@ struct Measurement {
   int threads = 1, elements = 0, nodes = 0, steps = 0;
   double seconds = 0;            ///< elapsed
   double processor_seconds = 0;  ///< of all threads
+  double flops = 0, bytes = 0;   ///< per element-step
   double fma_rate = 0;           ///< flop per processor second
+  double memory_rate = 0;        ///< bytes per processor second
   double energy_error = 0;
   double work() const { return static_cast<double>(elements) * steps; }
   double rate() const { return work() / seconds; }
   double processor_rate() const { return work() / processor_seconds; }
+  /// Of the rate that arithmetic alone or memory alone would allow, whichever is lower.
+  double roofline_share() const {
+    return processor_rate() * std::max(flops / fma_rate, bytes / memory_rate);
+  }
 };
 
-Measurement measure(const std::string& name, const Model& model, int threads) {
-  Measurement m{name, threads, 0, model.mesh.node_count(), 0, 0, 0, fma_rate(threads), 0};
-  for (const auto& block : model.blocks) m.elements += block->element_count();
-  State state = initial_state(model);
-  Scratch scratch(model, threads);
-  const double dt = 0.9 * initial_stable_step(model);
-  for (int i = 0; i < 5; ++i) advance_step(model, state, scratch, dt);
-  constexpr double kLeastTime = 1.0;
+Measurement measure(const std::string& name, const Workload& work, int threads) {
+  Measurement m;
+  m.workload = name;
+  m.threads = threads;
+  m.elements = work.elements;
+  m.nodes = awake_node_count(work.model, work.start);
+  m.flops = work.flops_per_element;
+  m.bytes = bytes_per_element(work);
+  m.fma_rate = fma_rate(threads);
+  m.memory_rate = memory_rate(threads);
+  State state = work.start;
+  Scratch scratch(work.model, threads);
+  double dt = 0.9 * compute_forces(work.model, state, scratch).stable_step;
+  state = work.start;
+  const auto five_steps = [&] {
+    for (int i = 0; i < 5; ++i) dt = 0.9 * advance_step(work.model, state, scratch, dt).stable_step;
+  };
+  five_steps();
+  constexpr double kLeastTime = 1.0;  // processor seconds a thread
   const Clock::time_point start = Clock::now();
   const double processor_start = processor_time();
   do {
-    for (int i = 0; i < 5; ++i) advance_step(model, state, scratch, dt);
+    five_steps();
     m.steps += 5;
     m.seconds = seconds_since(start);
     m.processor_seconds = processor_time() - processor_start;
-  } while (m.seconds < kLeastTime);
+  } while (m.processor_seconds < kLeastTime * threads);
   m.energy_error = state.energies.balance_error();
   return m;
 }
 
+/// Processor time of one thread over that of so many; waiting for others counts on neither side.
+double efficiency(const std::vector<Measurement>& all, const Measurement& m) {
+  for (const Measurement& one : all)
+    if (one.workload == m.workload && one.threads == 1)
+      return m.processor_rate() / one.processor_rate();
+  return 0;
+}
+
 std::string table_of(const std::vector<Measurement>& measurements) {
   std::string text =
-      "                           million element-steps per\n"
-      "workload  elements  threads  second  core second  GB/s  of FMA rate  energy error\n";
+      "                           million element-steps per     of FMA   of the  thread\n"
+      "workload  elements  threads  second  core second  GB/s   rate  roofline  efficiency  energy "
+      "error\n";
   for (const Measurement& m : measurements)
-    text += fmt::format("{:8}{:10}{:9}{:8.2f}{:13.2f}{:6.1f}{:11.1f} %{:13.1e}\n", m.workload,
-                        m.elements, m.threads, 1e-6 * m.rate(), 1e-6 * m.processor_rate(),
-                        1e-9 * kBytesPerHex * m.rate(),
-                        100 * kFlopsPerHex * m.processor_rate() / m.fma_rate, m.energy_error);
+    text +=
+        fmt::format("{:8}{:10}{:9}{:8.2f}{:13.2f}{:6.1f}{:6.1f} %{:8.1f} %{:12.2f}{:14.1e}\n",
+                    m.workload, m.elements, m.threads, 1e-6 * m.rate(), 1e-6 * m.processor_rate(),
+                    1e-9 * m.bytes * m.rate(), 100 * m.flops * m.processor_rate() / m.fma_rate,
+                    100 * m.roofline_share(), efficiency(measurements, m), m.energy_error);
+  const Measurement& last = measurements.back();
   return text + fmt::format(
-                    "FMA rate {:.1f} Gflop per core second; {} flops and {} bytes counted "
-                    "per element-step\n",
-                    1e-9 * measurements.back().fma_rate, kFlopsPerHex, kBytesPerHex);
+                    "{}, {} lanes; per core second {:.1f} Gflop of multiply-adds, {:.1f} GB "
+                    "copied in memory\n",
+                    processor_name(), kLanes, 1e-9 * last.fma_rate, 1e-9 * last.memory_rate);
 }
 
 std::string json_of(const std::vector<Measurement>& measurements) {
@@ -236,13 +177,16 @@ std::string json_of(const std::vector<Measurement>& measurements) {
                     {"processor_seconds", m.processor_seconds},
                     {"element_steps_per_s", m.rate()},
                     {"element_steps_per_core_s", m.processor_rate()},
-                    {"bytes_per_s", kBytesPerHex * m.rate()},
-                    {"flop_per_s", kFlopsPerHex * m.rate()},
+                    {"thread_efficiency", efficiency(measurements, m)},
+                    {"flops_per_element_step", m.flops},
+                    {"bytes_per_element_step", m.bytes},
+                    {"bytes_per_s", m.bytes * m.rate()},
+                    {"flop_per_s", m.flops * m.rate()},
                     {"fma_flop_per_core_s", m.fma_rate},
+                    {"memory_bytes_per_core_s", m.memory_rate},
+                    {"roofline_share", m.roofline_share()},
                     {"energy_balance_error", m.energy_error}});
-  return nlohmann::json{{"flops_per_element_step", kFlopsPerHex},
-                        {"bytes_per_element_step", kBytesPerHex},
-                        {"measurements", rows}}
+  return nlohmann::json{{"processor", processor_name()}, {"lanes", kLanes}, {"measurements", rows}}
              .dump(2) +
          "\n";
 }
@@ -251,7 +195,7 @@ std::string json_of(const std::vector<Measurement>& measurements) {
 
 std::string run_bench(const BenchRequest& request) {
   std::vector<std::string> names = request.workloads;
-  if (names.empty()) names = {"A20k", "A", "A500k", "B"};
+  if (names.empty()) names = workload_names();
   std::vector<int> threads = request.threads;
   if (threads.empty()) {
     threads = {1};
@@ -259,8 +203,8 @@ std::string run_bench(const BenchRequest& request) {
   }
   std::vector<Measurement> measurements;
   for (const std::string& name : names) {
-    const Model model = workload(name);
-    for (int t : threads) measurements.push_back(measure(name, model, t));
+    const Workload work = make_workload(name);
+    for (int t : threads) measurements.push_back(measure(name, work, t));
   }
   return request.json ? json_of(measurements) : table_of(measurements);
 }

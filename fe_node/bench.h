@@ -8,7 +8,7 @@
 namespace crosswalk::fe {
 
 struct BenchRequest {
-  std::vector<std::string> workloads;  ///< of A20k A A500k B; empty: all
+  std::vector<std::string> workloads;  ///< see bench_workloads.h; empty: all
   std::vector<int> threads;            ///< empty: 1 and all
   bool json = false;
 };

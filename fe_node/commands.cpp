@@ -10,6 +10,7 @@
 
 #include "common/log.h"
 #include "fe_node/bench.h"
+#include "fe_node/bench_workloads.h"
 #include "fe_node/deck/deck_report.h"
 #include "fe_node/deck/units_guess.h"
 #include "fe_node/model_builder/model_builder.h"
@@ -161,8 +162,9 @@ NodeCommand validate_command() {
 NodeCommand bench_command() {
   return {"bench", "speed of the solver on generated workloads", [](CLI::App& options) {
             auto request = std::make_shared<BenchRequest>();
-            options.add_option("workloads", request->workloads,
-                               "Any of A20k A A500k B; all by default");
+            options.add_option(
+                "workloads", request->workloads,
+                fmt::format("Any of {}; all by default", fmt::join(workload_names(), " ")));
             options.add_option("--threads", request->threads, "Threads; 1 and all by default");
             options.add_flag("--json", request->json, "One JSON object instead of a table");
             return [request] {

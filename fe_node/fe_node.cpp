@@ -56,6 +56,11 @@ FeNode::FeNode(FeConfig config, int threads, std::filesystem::path folder)
       model.mesh.node_count(), model.mesh.table(ElementKind::Hex8).size(),
       model.mesh.table(ElementKind::Quad4).size(), model.mesh.table(ElementKind::Line2).size(),
       model.total_mass(), inertia.mass, added, 1e6 * initial_stable_step(model));
+  for (std::size_t p = 0; p < model.mesh.parts.size(); ++p)
+    if (model.added_mass[p] > 0)
+      log_info("added mass of part {} '{}': {:.3g} kg, {:.2g} %", model.mesh.parts[p].id.value,
+               model.mesh.parts[p].name, model.added_mass[p],
+               100 * model.added_mass[p] / model.part_mass[p]);
   for (const std::string& note : node_.built.notes) log_warning("{}", note);
 }
 

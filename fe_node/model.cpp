@@ -8,58 +8,20 @@
 namespace crosswalk::fe {
 namespace {
 
-CornerTable make_corner_table(const Model& model, const std::vector<std::size_t>& offsets,
-                              bool moments_only) {
-  const int node_count = model.mesh.node_count();
-  CornerTable table;
-  table.begin.assign(node_count + 1, 0);
-  auto for_each_corner = [&](auto&& visit) {
-    for (std::size_t b = 0; b < model.blocks.size(); ++b) {
-      const ElementBlock& block = *model.blocks[b];
-      if (moments_only && !block.has_moments()) continue;
-      for (int element = 0; element < block.element_count(); ++element)
-        for (int corner = 0; corner < block.corners(); ++corner) {
-          const int group = element / kLanes, lane = element % kLanes;
-          const std::size_t slot = offsets[b] + block.corner_slot(group, corner, lane);
-          visit(block.node(group, corner, lane), slot);
-        }
-    }
-  };
-  for_each_corner([&](int node, std::size_t) { ++table.begin[node + 1]; });
-  for (int n = 0; n < node_count; ++n) table.begin[n + 1] += table.begin[n];
-  table.slot.resize(table.begin.back());
-  std::vector<int> next(table.begin.begin(), table.begin.end() - 1);
-  for_each_corner([&](int node, std::size_t slot) {
-    table.slot[next[node]++] = static_cast<std::uint32_t>(slot);
-  });
-  return table;
-}
-
-void place_offsets(Model& model) {
-  std::size_t force = 0, moment = 0;
-  for (const auto& block : model.blocks) {
-    model.force_offset.push_back(force);
-    model.moment_offset.push_back(moment);
-    const std::size_t size = block->corner_array_size();
-    force += size;
-    if (block->has_moments()) moment += size;
-  }
-  model.force_offset.push_back(force);
-  model.moment_offset.push_back(moment);
-  CW_ASSERT(force < (std::size_t{1} << 32));
-}
-
 void lump_masses(Model& model) {
   const int node_count = model.mesh.node_count();
   model.mass.assign(node_count, 0.0);
   if (!model.point_mass.empty()) model.mass = model.point_mass;
   model.added_mass.assign(model.mesh.parts.size(), 0.0);
+  model.part_mass.assign(model.mesh.parts.size(), 0.0);
   const bool has_rotations = std::any_of(model.blocks.begin(), model.blocks.end(),
                                          [](const auto& b) { return b->has_moments(); });
   if (has_rotations) model.inertia.assign(node_count, 0.0);
   for (const auto& block : model.blocks)
     for (int element = 0; element < block->element_count(); ++element) {
-      model.added_mass[block->part()] += block->added_mass(element);
+      const double added = block->added_mass(element);
+      model.added_mass[block->part()] += added;
+      model.part_mass[block->part()] += block->corners() * block->corner_mass(element) - added;
       for (int corner = 0; corner < block->corners(); ++corner) {
         const int node = block->node(element / kLanes, corner, element % kLanes);
         model.mass[node] += block->corner_mass(element);
@@ -104,9 +66,7 @@ void finish_body(Model& model, int index) {
 
 void Model::finish() {
   CW_ASSERT(mass.empty());
-  place_offsets(*this);
-  corner_forces = make_corner_table(*this, force_offset, false);
-  corner_moments = make_corner_table(*this, moment_offset, true);
+  tiles = make_force_tiles(blocks, mesh.node_count());
   lump_masses(*this);
   hand_over_tied_masses(*this);
   body_of_node.assign(mesh.node_count(), -1);

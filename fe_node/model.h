@@ -11,7 +11,7 @@
 #include "fe_node/constraint/rigid_body.h"
 #include "fe_node/contact/contact.h"
 #include "fe_node/element/element_block.h"
-#include "fe_node/mesh/corner_table.h"
+#include "fe_node/force_tiles.h"
 #include "fe_node/mesh/mesh.h"
 #include "fe_node/sleeper.h"
 
@@ -48,17 +48,16 @@ struct Model {
   std::optional<Sleeper> sleeper;  ///< set after finish()
 
   // Filled by finish().
-  CornerTable corner_forces;   ///< node -> slots of the corner force array
-  CornerTable corner_moments;  ///< node -> slots of the corner moment array
-  std::vector<std::size_t> force_offset, moment_offset;  ///< of each block in those arrays
-  std::vector<double> mass;                              ///< kg per node, added mass included
+  ForceTiles tiles;          ///< how corner forces are added up
+  std::vector<double> mass;  ///< kg per node, added mass included
   /// kg per node as a contact feels it: nodes of a rigid body share the body's mass.
   std::vector<double> contact_mass;
   std::vector<double> inertia;     ///< kg m2 per node; empty without shells
   std::vector<int> body_of_node;   ///< index into bodies, or -1
   std::vector<double> added_mass;  ///< kg per part, by mass scaling
+  std::vector<double> part_mass;   ///< kg per part, of its elements before that
 
-  /// Lumps masses, scales mass, builds the corner tables. Call once, last.
+  /// Lumps masses, scales mass, cuts the force tiles. Call once, last.
   void finish();
   double total_mass() const;  ///< kg, added mass and rigid parts included
   bool has_rotations() const { return !inertia.empty(); }

@@ -111,9 +111,10 @@ std::vector<std::string> model_summary(const Model& model) {
                   1e6 * initial_stable_step(model))};
   for (std::size_t p = 0; p < model.mesh.parts.size(); ++p)
     if (model.added_mass[p] > 0)
-      lines.push_back(fmt::format("added mass of part {} '{}': {:.4g} kg",
+      lines.push_back(fmt::format("added mass of part {} '{}': {:.4g} kg, {:.3g} %",
                                   model.mesh.parts[p].id.value, model.mesh.parts[p].name,
-                                  model.added_mass[p]));
+                                  model.added_mass[p],
+                                  100 * model.added_mass[p] / model.part_mass[p]));
   return lines;
 }
 
@@ -136,7 +137,7 @@ SolveResult solve_deck(const SolveRequest& request) {
 
   FieldWriter fields(model, request.folder / "fields");
   EnergyHistory history(request.folder / "energies.csv");
-  HistoryWriter details(model, built.histories, request.folder);
+  HistoryWriter details(model, built.histories, request.folder, scratch);
   Clock field_clock(built.field_interval > 0 ? built.field_interval : end / kDefaultFrames,
                     state.time);
   Clock history_clock(built.history_interval > 0 ? built.history_interval : end / kDefaultHistory,

@@ -10,31 +10,71 @@
 namespace crosswalk::fe {
 namespace {
 
-constexpr int kGroupsPerChunk = 8;
+constexpr int kMostCorners = 10;
 constexpr int kNodesPerChunk = 512;
 
 int node_chunk_count(int node_count) { return (node_count + kNodesPerChunk - 1) / kNodesPerChunk; }
 
+void keep_taps(std::vector<Scratch::Tap>& taps, const ElementBlock& block, int first, int last,
+               const double* forces, const double* moments) {
+  for (Scratch::Tap& tap : taps) {
+    const int group = tap.element / kLanes;
+    if (group < first || group >= last) continue;
+    const std::size_t slot = block.corner_slot(group - first, tap.corner, tap.element % kLanes);
+    tap.force = Eigen::Map<const Vec3>(forces + slot);
+    if (block.has_moments()) tap.moment = Eigen::Map<const Vec3>(moments + slot);
+  }
+}
+
+void fetch_nodes(const ForceTiles& tiles, const StepContext& context, int call) {
+  for (int k = tiles.arrivals_begin[call]; k < tiles.arrivals_begin[call + 1]; ++k) {
+    __builtin_prefetch(&context.nodes[tiles.arrivals[k]]);
+    if (!context.spin.empty()) __builtin_prefetch(&context.spin[tiles.arrivals[k]]);
+  }
+}
+
+/// Forces of a tile's elements, added up in its rows.
+void tile_forces(const Model& model, const StepContext& context, const ForceTile& tile,
+                 std::span<double> history, Scratch& scratch, BlockSums& sums,
+                 std::vector<Scratch::Tap>& taps) {
+  const ElementBlock& block = *model.blocks[tile.block];
+  const bool has_moments = block.has_moments();
+  alignas(64) double forces[kGroupsPerCall * kMostCorners * kLanes * kCornerStride] = {};
+  alignas(64) double moments[kGroupsPerCall * 4 * kLanes * kCornerStride] = {};
+  double* force_rows = scratch.force_rows.data() + kCornerStride * tile.force_row;
+  double* moment_rows = scratch.moment_rows.data() + kCornerStride * tile.moment_row;
+  const std::size_t row_doubles = std::size_t{kCornerStride} * (tile.node_count + 1);
+  std::fill_n(force_rows, row_doubles, 0.0);
+  if (has_moments) std::fill_n(moment_rows, row_doubles, 0.0);
+  const std::uint16_t* row = model.tiles.row_of_corner.data() + tile.corner;
+  int call = tile.call;
+  for (int first = tile.first; first < tile.last; first += kGroupsPerCall) {
+    const int last = std::min(first + kGroupsPerCall, tile.last);
+    const int corners = (last - first) * block.corners() * kLanes;
+    fetch_nodes(model.tiles, context, ++call);
+    block.forces(context, history, forces, moments, first, last, sums);
+    add_corners(forces, row, corners, force_rows);
+    if (has_moments) add_corners(moments, row, corners, moment_rows);
+    row += corners;
+    if (!taps.empty()) keep_taps(taps, block, first, last, forces, moments);
+  }
+}
+
 void element_forces(const Model& model, State& state, Scratch& scratch) {
   const StepContext context{state.nodes,   state.spin, state.time,
                             state.last_dt, true,       scratch.threads};
-  const int count = static_cast<int>(scratch.chunks.size());
+  const int count = static_cast<int>(model.tiles.tiles.size());
   const bool asleep = is_asleep(model, state);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     if (model.blocks[b]->has_neighbours() && !(asleep && model.sleeper->blocks[b]))
       model.blocks[b]->prepare(context, state.history[b]);
 #pragma omp parallel for schedule(static) num_threads(scratch.threads)
-  for (int c = 0; c < count; ++c) {
-    const Scratch::Chunk& chunk = scratch.chunks[c];
-    const std::size_t b = chunk.block;
-    scratch.chunk_sums[c] = BlockSums{};
-    if (asleep && model.sleeper->blocks[b]) continue;
-    model.blocks[b]->forces(context, state.history[b],
-                            {scratch.corner_forces.data() + model.force_offset[b],
-                             scratch.corner_forces.data() + model.force_offset[b + 1]},
-                            {scratch.corner_moments.data() + model.moment_offset[b],
-                             scratch.corner_moments.data() + model.moment_offset[b + 1]},
-                            chunk.first, chunk.last, scratch.chunk_sums[c]);
+  for (int t = 0; t < count; ++t) {
+    const ForceTile& tile = model.tiles.tiles[t];
+    scratch.tile_sums[t] = BlockSums{};
+    if (asleep && model.sleeper->blocks[tile.block]) continue;
+    tile_forces(model, context, tile, state.history[tile.block], scratch, scratch.tile_sums[t],
+                scratch.taps[t]);
   }
 }
 
@@ -72,11 +112,11 @@ void find_failed(const Model& model, const State& state, Scratch& scratch) {
   }
 }
 
-/// Adds the chunks up in their fixed order and books the energies.
+/// Adds the tiles up in their fixed order and books the energies.
 StepReport sum_blocks(const Model& model, State& state, Scratch& scratch) {
   std::fill(scratch.block_sums.begin(), scratch.block_sums.end(), BlockSums{});
-  for (std::size_t c = 0; c < scratch.chunks.size(); ++c)
-    add(scratch.chunk_sums[c], scratch.block_sums[scratch.chunks[c].block]);
+  for (std::size_t t = 0; t < model.tiles.tiles.size(); ++t)
+    add(scratch.tile_sums[t], scratch.block_sums[model.tiles.tiles[t].block]);
 
   StepReport report;
   report.stable_step = std::numeric_limits<double>::infinity();
@@ -162,24 +202,18 @@ void pressure_loads(const Model& model, State& state, Scratch& scratch) {
   }
 }
 
-Vec3 gather(const CornerTable& table, const double* corners, int node) {
-  using Corner = Eigen::Map<const Eigen::Vector4d, Eigen::Aligned32>;
-  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-  for (int k = table.begin[node]; k < table.begin[node + 1]; ++k)
-    sum += Corner(corners + table.slot[k]);
-  return sum.head<3>();
-}
-
-/// Every node adds its corners in the order of the table: the same bits for any number of threads.
+/// Every node adds its rows in the order of the tiles: the same bits for any number of threads.
 void gather_nodal_forces(const Model& model, const State& state, Scratch& scratch) {
   const int node_count = awake_node_count(model, state);
 #pragma omp parallel for schedule(static) num_threads(scratch.threads)
   for (int n = 0; n < node_count; ++n) {
-    scratch.force[n] =
-        scratch.applied[n] + gather(model.corner_forces, scratch.corner_forces.data(), n);
-    scratch.applied[n].setZero();
+    scratch.force[n] = sum_of_rows(model.tiles.force_rows, scratch.force_rows.data(), n);
+    if (scratch.has_loads) {
+      scratch.force[n] += scratch.applied[n];
+      scratch.applied[n].setZero();
+    }
     if (model.has_rotations())
-      scratch.moment[n] = gather(model.corner_moments, scratch.corner_moments.data(), n);
+      scratch.moment[n] = sum_of_rows(model.tiles.moment_rows, scratch.moment_rows.data(), n);
   }
   for (const TiedNode& tie : model.tied)
     for (int i = 0; i < tie.count; ++i)
@@ -276,34 +310,42 @@ void hold_fixed_nodes(const Model& model, State& state, const Scratch& scratch) 
 /// Kick and drift of the free nodes; constrained ones are put right afterwards.
 void integrate(const Model& model, State& state, Scratch& scratch, const Kick& kick, double dt) {
   const Vec3 gravity = gravity_at(model, state.time);
+  const Eigen::Vector4d g(gravity.x(), gravity.y(), gravity.z(), 0);
+  const bool has_gravity = !gravity.isZero(0);
   const double damping = model.settings.mass_damping;
   const int node_count = awake_node_count(model, state);
   const int weighed = model.sleeper ? model.sleeper->first_node : node_count;
   const int chunk_count = node_chunk_count(node_count);
 #pragma omp parallel for schedule(static) num_threads(scratch.threads)
   for (int c = 0; c < chunk_count; ++c) {
-    double kinetic = 0, gravity_work = 0, damped = 0;
+    using Row = Eigen::Map<Eigen::Vector4d, Eigen::Aligned32>;  // x y z and a fourth left alone
+    Eigen::Vector4d kinetic = Eigen::Vector4d::Zero();
+    double turning = 0, gravity_work = 0, damped = 0;
     const int last = std::min((c + 1) * kNodesPerChunk, node_count);
     for (int n = c * kNodesPerChunk; n < last; ++n) {
       NodeRecord& node = state.nodes[n];
-      const Vec3 before = node.velocity();
-      Vec3 after = before;
       if (node.inverse_mass > 0) {
-        const Vec3 g = n < weighed ? gravity : Vec3(Vec3::Zero());
-        after = kick.keep * before + kick.gain * (scratch.force[n] * node.inverse_mass + g);
-        kinetic += 0.5 * model.mass[n] * before.dot(after);
-        gravity_work += 0.5 * kick.length * model.mass[n] * g.dot(before + after);
-        damped += 0.25 * kick.length * damping * model.mass[n] * (before + after).squaredNorm();
-        node.set_velocity(after);
-        node.set_position(node.position() + dt * after);
+        const Vec3& f = scratch.force[n];
+        Row velocity(node.v), position(node.x);
+        const Eigen::Vector4d before = velocity;
+        Eigen::Vector4d a = node.inverse_mass * Eigen::Vector4d(f.x(), f.y(), f.z(), 0);
+        if (has_gravity && n < weighed) a += g;
+        const Eigen::Vector4d after = kick.keep * before + kick.gain * a;
+        kinetic += (0.5 * model.mass[n]) * before.cwiseProduct(after);
+        if (has_gravity && n < weighed)
+          gravity_work += 0.5 * kick.length * model.mass[n] * g.dot(before + after);
+        if (damping > 0)
+          damped += 0.25 * kick.length * damping * model.mass[n] * (before + after).squaredNorm();
+        velocity = after;
+        position += dt * after;
       }
       if (model.has_rotations() && model.inertia[n] > 0) {
         const Vec3 spin = state.spin[n];
         state.spin[n] = kick.keep * spin + kick.gain / model.inertia[n] * scratch.moment[n];
-        kinetic += 0.5 * model.inertia[n] * spin.dot(state.spin[n]);
+        turning += 0.5 * model.inertia[n] * spin.dot(state.spin[n]);
       }
     }
-    scratch.node_sums[c] = {kinetic, gravity_work, damped};
+    scratch.node_sums[c] = {kinetic.sum() + turning, gravity_work, damped};
   }
   state.energies.kinetic = 0;
   for (int c = 0; c < chunk_count; ++c) {
@@ -395,14 +437,13 @@ void move_tied_nodes(const Model& model, State& state, double dt) {
 }  // namespace
 
 Scratch::Scratch(const Model& model, int thread_count) : threads(thread_count) {
-  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
-    for (int first = 0; first < model.blocks[b]->group_count(); first += kGroupsPerChunk)
-      chunks.push_back(
-          {b, first, std::min(first + kGroupsPerChunk, model.blocks[b]->group_count())});
-  chunk_sums.resize(chunks.size());
+  const std::size_t tile_count = model.tiles.tiles.size();
+  tile_sums.resize(tile_count);
+  taps.resize(tile_count);
   block_sums.resize(model.blocks.size());
-  corner_forces.resize(model.force_offset.back());
-  corner_moments.resize(model.moment_offset.back());
+  force_rows.resize(kCornerStride * model.tiles.force_row_count);
+  moment_rows.resize(kCornerStride * model.tiles.moment_row_count);
+  has_loads = !model.contacts.empty() || !model.nodal_forces.empty() || !model.pressures.empty();
   const int node_count = model.mesh.node_count();
   applied.assign(node_count, Vec3::Zero());
   force.assign(node_count, Vec3::Zero());
@@ -417,6 +458,18 @@ Scratch::Scratch(const Model& model, int thread_count) : threads(thread_count) {
   body_command.resize(model.bodies.size());
   held.resize(model.fixed.size());
   node_sums.resize(node_chunk_count(node_count));
+}
+
+std::pair<int, int> Scratch::add_tap(const Model& model, int block, int element, int corner) {
+  const std::vector<ForceTile>& tiles = model.tiles.tiles;
+  const auto holds = [&](const ForceTile& tile) {
+    return tile.block == block && element / kLanes >= tile.first && element / kLanes < tile.last;
+  };
+  const auto tile =
+      static_cast<std::size_t>(std::find_if(tiles.begin(), tiles.end(), holds) - tiles.begin());
+  CW_ASSERT(tile < tiles.size());
+  taps[tile].push_back({element, corner});
+  return {static_cast<int>(tile), static_cast<int>(taps[tile].size()) - 1};
 }
 
 StepReport compute_forces(const Model& model, State& state, Scratch& scratch) {

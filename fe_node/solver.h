@@ -20,16 +20,22 @@ struct StepReport {
 struct Scratch {
   Scratch(const Model& model, int threads);
 
-  struct Chunk {
-    int block = 0, first = 0, last = 0;  ///< lane groups
+  /// A corner whose force and moment are kept for outputs.
+  struct Tap {
+    int element = 0, corner = 0;  ///< block-local
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   };
+  /// Keeps that corner from now on; taps[tile][index] holds its load after compute_forces().
+  std::pair<int, int> add_tap(const Model& model, int block, int element, int corner);
+
   int threads = 1;
-  std::vector<Chunk> chunks;
-  std::vector<BlockSums> chunk_sums;
+  std::vector<BlockSums> tile_sums;
   std::vector<BlockSums> block_sums;
-  LaneVector corner_forces, corner_moments;
-  std::vector<Vec3> applied;        ///< N, contact and loads on nodes of this step
-  std::vector<Vec3> force, moment;  ///< N, N m, on nodes
+  LaneVector force_rows, moment_rows;  ///< see force_tiles.h
+  std::vector<std::vector<Tap>> taps;  ///< per tile
+  bool has_loads = false;              ///< the model has contacts or loads on nodes
+  std::vector<Vec3> applied;           ///< N, contact and loads on nodes of this step
+  std::vector<Vec3> force, moment;     ///< N, N m, on nodes
   ContactLoads contact_loads;
   FailedElements failed;  ///< found again from the histories whenever their number changes
   std::vector<ContactReport> contact_reports;

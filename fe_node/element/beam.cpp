@@ -172,7 +172,7 @@ void BeamBlock::forces(const StepContext& step, std::span<double> history,
     const Vec3 moments[2] = {E * Vec3(torque, -s.first, -t.first),
                              E * Vec3(-torque, -s.second, -t.second)};
     for (int corner = 0; corner < 2; ++corner) {
-      const std::size_t at = corner_slot(e / kLanes, corner, e % kLanes);
+      const std::size_t at = corner_slot(e / kLanes - first, corner, e % kLanes);
       Eigen::Map<Vec3>{corner_forces.data() + at} = corner == 1 ? force : Vec3(-force);
       Eigen::Map<Vec3>{corner_moments.data() + at} = moments[corner];
     }

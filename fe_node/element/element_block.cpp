@@ -20,6 +20,22 @@ ElementBlock::ElementBlock(const Mesh& mesh, ElementKind kind, int part,
       }
 }
 
+void LaneSums::book(BlockSums& sums) const {
+  sums.internal += sum(internal);
+  sums.hourglass += sum(hourglass);
+  sums.hourglass_dissipated += sum(hourglass_dissipated);
+  sums.viscous_dissipated += sum(viscous_dissipated);
+  sums.failed += static_cast<int>(sum(failed) + 0.5);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const double step = std::sqrt(step_squared[lane]);
+    const int element = static_cast<int>(critical_group[lane]) * kLanes + lane;
+    const bool is_first = step == sums.stable_step && element < sums.critical_element;
+    if (element < 0 || !(step < sums.stable_step || is_first)) continue;
+    sums.stable_step = step;
+    sums.critical_element = element;
+  }
+}
+
 Lanes ElementBlock::lane_mask(int group) const {
   if ((group + 1) * kLanes <= element_count()) return Lanes::Ones();
   Lanes mask;

@@ -1,11 +1,11 @@
-// A homogeneous block of elements: one element kind, one part, one material law, in lane groups of
-// eight. A block is immutable; what changes lives in a flat history array of the State.
+// A homogeneous block of elements: one element kind, one part, one material law, in lane groups. A
+// block is immutable; what changes lives in a flat history array of the State.
 //
 // Each step a block turns positions and velocities into one force per element corner (f_int with
 // the sign of a load on the node: the acceleration is (sum of corner forces + loads) / mass).
-// Corners are stored, not added up: the solver gathers them per node in a fixed order, so results
-// are bit-identical for any number of threads. The last group is padded by repeating its last
-// element; padded lanes are never gathered nor summed.
+// Corners are stored, not added up: the solver adds them per node in a fixed order (force_tiles.h),
+// so results are bit-identical for any number of threads. The last group is padded by repeating its
+// last element; padded lanes are never added.
 #pragma once
 
 #include <limits>
@@ -47,6 +47,21 @@ struct BlockSums {
   int failed = 0;  ///< elements that carry nothing any more
 };
 
+/// Sums of a kernel's loop over groups, lane by lane; booked once at its end.
+struct LaneSums {
+  Lanes internal = Lanes::Zero(), hourglass = Lanes::Zero(), hourglass_dissipated = Lanes::Zero(),
+        viscous_dissipated = Lanes::Zero(), failed = Lanes::Zero();
+  Lanes step_squared = Lanes::Constant(std::numeric_limits<double>::infinity());
+  Lanes critical_group = Lanes::Constant(-1);
+
+  /// `squared` of lanes that do not count must be infinite.
+  void limit_step(const Lanes& squared, int group) {
+    critical_group = where_less(squared, step_squared, Lanes::Constant(group), critical_group);
+    step_squared = smaller(squared, step_squared);
+  }
+  void book(BlockSums& sums) const;
+};
+
 /// The state of one element as outputs want it; Cauchy stress in W.
 struct ElementSample {
   Vec3 centre = Vec3::Zero();
@@ -76,8 +91,8 @@ class ElementBlock {
   std::size_t corner_slot(int group, int corner, int lane) const {
     return (static_cast<std::size_t>(group * corners_ + corner) * kLanes + lane) * kCornerStride;
   }
-  /// Doubles of a corner force array of this block.
-  std::size_t corner_array_size() const { return corner_slot(group_count(), 0, 0); }
+  /// Doubles of a corner force array of so many groups.
+  std::size_t corner_array_size(int groups) const { return corner_slot(groups, 0, 0); }
   /// True when corners also carry moments (shells, beams).
   virtual bool has_moments() const { return false; }
   /// Numbers per lane group in the history array (a multiple of kLanes).
@@ -98,9 +113,9 @@ class ElementBlock {
   /// False once an element carries nothing any more.
   virtual bool is_alive(std::span<const double> /*history*/, int /*element*/) const { return true; }
 
-  /// Forces of groups [first, last). `history` and `corner_forces` belong to the whole block:
-  /// corner_slot(group, corner, lane) is the place of the x component, y and z
-  /// follow; moments likewise. See store_corner().
+  /// Forces of groups [first, last). `history` belongs to the whole block, the corner arrays to
+  /// these groups: corner_slot(group - first, corner, lane) is the place of the x component, y and
+  /// z follow; moments likewise. See store_corner().
   virtual void forces(const StepContext& step, std::span<double> history,
                       std::span<double> corner_forces, std::span<double> corner_moments, int first,
                       int last, BlockSums& sums) const = 0;

@@ -77,7 +77,7 @@ HexShapes make_hex_shapes(const ElementBlock& block, const Mesh& mesh, double de
   shapes.groups.resize(block.group_count());
   shapes.added_density.resize(block.element_count());
   Tensor<Lanes> identity;
-  for (int k = 0; k < 9; ++k) identity(k / 3, k % 3).setConstant(k % 4 == 0 ? 1.0 : 0.0);
+  for (int k = 0; k < 9; ++k) identity(k / 3, k % 3) = Lanes::Constant(k % 4 == 0 ? 1.0 : 0.0);
   for (int group = 0; group < block.group_count(); ++group) {
     HexReference<Lanes>& ref = shapes.groups[group];
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -100,49 +100,13 @@ HexShapes make_hex_shapes(const ElementBlock& block, const Mesh& mesh, double de
   return shapes;
 }
 
-HexNodes<Lanes> load_hex_nodes(std::span<const NodeRecord> nodes, const int* index) {
-  HexNodes<Lanes> out;
-  for (int node = 0; node < 8; ++node) {
-    const NodeLanes corner = load_nodes(nodes, index + node * kLanes);
-    for (int i = 0; i < 3; ++i) {
-      out.x[node][i] = corner.x[i];
-      out.v[node][i] = corner.v[i];
+void find_inverted(const Lanes& J, int first_element, int element_count, BlockSums& sums) {
+  if (sums.inverted_element >= 0) return;
+  for (int lane = kLanes - 1; lane >= 0; --lane)
+    if (!(J[lane] > 0)) {
+      sums.inverted_element = std::min(first_element + lane, element_count - 1);
+      sums.inverted_jacobian = J[lane];
     }
-  }
-  return out;
-}
-
-void add_to_sums(const HexAnswer<Lanes>& answer, const Lanes& mask, const StepContext& step,
-                 int first_element, int element_count, BlockSums& sums) {
-  const Lanes live = mask * answer.alive;
-  sums.failed += static_cast<int>((mask - live).sum() + 0.5);
-  sums.internal += (answer.energy * mask).sum();
-  sums.hourglass += (answer.hourglass_stored * live).sum();
-  sums.hourglass_dissipated += step.dt * (answer.hourglass_power * live).sum();
-  sums.viscous_dissipated += step.dt * (answer.viscous_power * live).sum();
-  const Lanes J = where_less(constant<Lanes>(0), live, answer.J, constant<Lanes>(1));
-  if (!all_positive(J) && sums.inverted_element < 0) {
-    for (int lane = kLanes - 1; lane >= 0; --lane)
-      if (!(J[lane] > 0)) {
-        sums.inverted_element = std::min(first_element + lane, element_count - 1);
-        sums.inverted_jacobian = J[lane];
-      }
-  }
-  if (step.wants_stable_step) {
-    const Lanes squared = where_less(constant<Lanes>(0), live, answer.stable_step_squared,
-                                     constant<Lanes>(std::numeric_limits<double>::infinity()));
-    if (squared.minCoeff() < sums.stable_step * sums.stable_step) {
-      int lane = 0;
-      sums.stable_step = std::sqrt(squared.minCoeff(&lane));
-      sums.critical_element = first_element + lane;
-    }
-  }
-}
-
-void store_corner_forces(const HexAnswer<Lanes>& answer, double* corner_forces) {
-  for (int node = 0; node < 8; ++node)
-    store_corner(answer.force[node][0], answer.force[node][1], answer.force[node][2],
-                 corner_forces + node * kLanes * kCornerStride);
 }
 
 std::unique_ptr<ElementBlock> make_hex8_block(const Mesh& mesh, int part, std::vector<int> elements,

@@ -14,11 +14,38 @@ struct HexShapes {
 };
 HexShapes make_hex_shapes(const ElementBlock& block, const Mesh& mesh, double density,
                           double bulk_modulus, double shear_modulus, double minimum_step);
-HexNodes<Lanes> load_hex_nodes(std::span<const NodeRecord> nodes, const int* index);
+inline HexNodes<Lanes> load_hex_nodes(std::span<const NodeRecord> nodes, const int* index) {
+  HexNodes<Lanes> out;
+  for (int node = 0; node < 8; ++node) {
+    load_positions(nodes, index + node * kLanes, out.x[node]);
+    load_velocities(nodes, index + node * kLanes, out.v[node]);
+  }
+  return out;
+}
+/// Finds the inverted element of a group of which some lane of J is not positive.
+void find_inverted(const Lanes& J, int first_element, int element_count, BlockSums& sums);
+
 /// Sums of one group; padded lanes have mask 0.
-void add_to_sums(const HexAnswer<Lanes>& answer, const Lanes& mask, const StepContext& step,
-                 int first_element, int element_count, BlockSums& sums);
-void store_corner_forces(const HexAnswer<Lanes>& answer, double* corner_forces);
+inline void add_to_sums(const HexAnswer<Lanes>& answer, const Lanes& mask, const StepContext& step,
+                        int group, int element_count, LaneSums& lanes, BlockSums& sums) {
+  const Lanes live = mask * answer.alive;
+  lanes.failed += mask - live;
+  lanes.internal += answer.energy * mask;
+  lanes.hourglass += answer.hourglass_stored * live;
+  lanes.hourglass_dissipated += step.dt * (answer.hourglass_power * live);
+  lanes.viscous_dissipated += step.dt * (answer.viscous_power * live);
+  const Lanes J = where_less(constant<Lanes>(0), live, answer.J, constant<Lanes>(1));
+  if (!all_positive(J)) find_inverted(J, group * kLanes, element_count, sums);
+  if (step.wants_stable_step)
+    lanes.limit_step(where_less(constant<Lanes>(0), live, answer.stable_step_squared,
+                                constant<Lanes>(std::numeric_limits<double>::infinity())),
+                     group);
+}
+inline void store_corner_forces(const HexAnswer<Lanes>& answer, double* corner_forces) {
+  for (int node = 0; node < 8; ++node)
+    store_corner(answer.force[node][0], answer.force[node][1], answer.force[node][2],
+                 corner_forces + node * kLanes * kCornerStride);
+}
 
 template <class Law>
 class Hex8Block final : public ElementBlock {
@@ -53,14 +80,18 @@ class Hex8Block final : public ElementBlock {
   CW_FLATTEN void forces(const StepContext& step, std::span<double> history,
                          std::span<double> corner_forces, std::span<double> /*corner_moments*/,
                          int first, int last, BlockSums& sums) const override {
+    LaneSums lanes;
+    lanes.step_squared = Lanes::Constant(sums.stable_step * sums.stable_step);
     for (int group = first; group < last; ++group) {
-      if (group + 1 < group_count()) fetch_ahead(step.nodes, group + 1);
+      if (group + 1 < group_count()) fetch_ahead(group + 1);
       const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));
-      const HexAnswer<Lanes> answer = hex8_forces(shapes_.groups[group], nodes, law_, controls_,
-                                                  step.dt, group_history(history, group));
-      store_corner_forces(answer, corner_forces.data() + corner_slot(group, 0, 0));
-      add_to_sums(answer, lane_mask(group), step, group * kLanes, element_count(), sums);
+      const HexAnswer<Lanes> answer =
+          hex8_forces(shapes_.groups[group], nodes, law_, controls_, step.dt,
+                      group_history(history, group), smallest(lanes.step_squared));
+      store_corner_forces(answer, corner_forces.data() + corner_slot(group - first, 0, 0));
+      add_to_sums(answer, lane_mask(group), step, group, element_count(), lanes, sums);
     }
+    lanes.book(sums);
   }
 
   bool is_alive(std::span<const double> history, int element) const override {
@@ -73,7 +104,7 @@ class Hex8Block final : public ElementBlock {
   double initial_stable_step(int element) const override {
     const HexReference<Lanes>& ref = shapes_.groups[element / kLanes];
     Tensor<Lanes> identity;
-    for (int k = 0; k < 9; ++k) identity(k / 3, k % 3).setConstant(k % 4 == 0 ? 1.0 : 0.0);
+    for (int k = 0; k < 9; ++k) identity(k / 3, k % 3) = Lanes::Constant(k % 4 == 0 ? 1.0 : 0.0);
     const Lanes squared = hex_stable_step_squared(ref, identity, constant<Lanes>(1),
                                                   constant<Lanes>(law_.bulk_modulus()),
                                                   constant<Lanes>(law_.shear_modulus()));
@@ -89,7 +120,8 @@ class Hex8Block final : public ElementBlock {
     std::copy_n(history.data() + std::size_t(history_per_group()) * group, history_per_group(),
                 copy.front().data());
     SolidStep<Lanes> still;
-    deformation_of(ref, nodes, still.F, still.F_rate);
+    still.F = gradient_of(ref, nodes.x);
+    still.F_rate = gradient_of(ref, nodes.v);
     still.J = determinant(still.F);
     still.F_inverse = inverse(still.F, still.J);
     const SolidAnswer<Lanes> material = law_.update(still, copy.data());
@@ -110,13 +142,10 @@ class Hex8Block final : public ElementBlock {
   }
 
  private:
-  /// Node records are met in no order that the processor could foresee; shapes cross pages.
-  void fetch_ahead(std::span<const NodeRecord> nodes, int group) const {
-    const int* index = group_nodes(group);
-    for (int i = 0; i < 8 * kLanes; ++i) __builtin_prefetch(&nodes[index[i]]);
-    const auto* shape = reinterpret_cast<const Lanes*>(&shapes_.groups[group]);
-    for (std::size_t i = 0; i < sizeof(HexReference<Lanes>) / sizeof(Lanes); ++i)
-      __builtin_prefetch(shape + i);
+  /// Shapes cross pages, where the processor's own prefetching stops.
+  void fetch_ahead(int group) const {
+    const auto* shape = reinterpret_cast<const char*>(&shapes_.groups[group]);
+    for (std::size_t i = 0; i < sizeof(HexReference<Lanes>); i += 64) __builtin_prefetch(shape + i);
   }
   Lanes* group_history(std::span<double> history, int group) const {
     return reinterpret_cast<Lanes*>(history.data() + std::size_t(history_per_group()) * group);

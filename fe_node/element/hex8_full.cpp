@@ -90,7 +90,7 @@ class FullHexBlock final : public ElementBlock {
               BlockSums& sums) const override;
   double initial_stable_step(int element) const override {
     Tensor<Lanes> identity;
-    for (int k = 0; k < 9; ++k) identity(k / 3, k % 3).setConstant(k % 4 == 0 ? 1.0 : 0.0);
+    for (int k = 0; k < 9; ++k) identity(k / 3, k % 3) = Lanes::Constant(k % 4 == 0 ? 1.0 : 0.0);
     const int group = element / kLanes;
     Bound bound(*this, group);
     for (int q = 0; q < kPoints; ++q)
@@ -190,6 +190,7 @@ template <class Law>
 void FullHexBlock<Law>::forces(const StepContext& step, std::span<double> history,
                                std::span<double> corner_forces, std::span<double> /*moments*/,
                                int first, int last, BlockSums& sums) const {
+  LaneSums lanes;
   for (int group = first; group < last; ++group) {
     const FullHexReference& ref = groups_[group];
     const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));
@@ -205,7 +206,7 @@ void FullHexBlock<Law>::forces(const StepContext& step, std::span<double> histor
       F_inverse[q] = inverse(F[q], J[q]);
       mean_J += ref.points[q].volume * J[q];
       growth += ref.points[q].volume * J[q] * expansion_rate(F_rate[q], F_inverse[q]);
-      answer.J = (J[q] < answer.J || J[q].isNaN()).select(J[q], answer.J);
+      answer.J = smaller_or_nan(answer.J, J[q]);
     }
     growth /= mean_J;
     mean_J *= ref.inverse_volume;
@@ -258,9 +259,10 @@ void FullHexBlock<Law>::forces(const StepContext& step, std::span<double> histor
                                    Lanes(viscous_speed / wave_speed), constant<Lanes>(0));
     const Lanes shorten = square_root(Lanes(1.0 + ratio * ratio)) - ratio;
     answer.stable_step_squared = bound.step_squared() * shorten * shorten;
-    store_corner_forces(answer, corner_forces.data() + corner_slot(group, 0, 0));
-    add_to_sums(answer, lane_mask(group), step, group * kLanes, element_count(), sums);
+    store_corner_forces(answer, corner_forces.data() + corner_slot(group - first, 0, 0));
+    add_to_sums(answer, lane_mask(group), step, group, element_count(), lanes, sums);
   }
+  lanes.book(sums);
 }
 
 template <class Law>

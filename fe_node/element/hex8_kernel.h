@@ -1,6 +1,8 @@
 // The arithmetic of the one-point hexahedron on a number type N (Lanes or double); see hex8.h.
 #pragma once
 
+#include <limits>
+
 #include "fe_node/element/element_controls.h"
 #include "fe_node/material/material.h"
 
@@ -49,68 +51,74 @@ void hourglass_modes(const N (&u)[8][3], int axis, N (&mode)[4]) {
   mode[3] = (g - h) - (e - f);  // xi eta zeta
 }
 
-/// force -= sum_a h_a[I] t_a for one component.
+/// -sum_a h_a[I] t_a at each corner.
 template <class N>
-void subtract_modes(const N (&t)[4], int axis, N (&force)[8][3]) {
+void mode_loads(const N (&t)[4], N (&load)[8]) {
   const N p = t[0] + t[1], m = t[0] - t[1], s = t[2] - t[3], r = t[2] + t[3];
-  force[0][axis] -= p + s;
-  force[1][axis] -= m - s;
-  force[2][axis] += p - s;
-  force[3][axis] += m + s;
-  force[4][axis] += p - r;
-  force[5][axis] += m + r;
-  force[6][axis] -= p + r;
-  force[7][axis] -= m - r;
+  load[0] = -(p + s);
+  load[1] = s - m;
+  load[2] = p - s;
+  load[3] = m + s;
+  load[4] = p - r;
+  load[5] = m + r;
+  load[6] = -(p + r);
+  load[7] = r - m;
 }
 
-/// Largest eigenvalue of a symmetric 3x3 matrix, from above: exact for three equal ones, at most
-/// mean + 2 sqrt(J2/3), tightened by two Newton steps of the characteristic polynomial, which stay
-/// above the root.
+/// Largest eigenvalue of a symmetric 3x3 matrix from above: exact for three equal ones, at most
+/// mean + 2 sqrt(J2/3).
 template <class N>
-N largest_eigenvalue_bound(const Symmetric<N>& g) {
-  const N mean = trace(g) * (1.0 / 3.0);
-  const N a = g.xx - mean, b = g.yy - mean, c = g.zz - mean;
-  const N off = g.xy * g.xy + g.yz * g.yz + g.zx * g.zx;
-  const N third_j2 = (a * a + b * b + c * c + 2.0 * off) * (1.0 / 6.0);
-  const N det =
-      a * (b * c - g.yz * g.yz) - g.xy * (g.xy * c - g.yz * g.zx) + g.zx * (g.xy * g.yz - b * g.zx);
-  // y^3 - 3 p2 y - det = 0 for the deviator's eigenvalue y, p2 = third_j2; y <= 2 sqrt(p2).
-  N y = 2.0 * square_root(third_j2);
-  for (int i = 0; i < 2; ++i) {
-    const N slope = 3.0 * (y * y - third_j2) + 1e-300;
-    y -= (y * (y * y - 3.0 * third_j2) - det) / slope;
+struct EigenvalueBound {
+  explicit EigenvalueBound(const Symmetric<N>& metric)
+      : g(metric), mean(trace(metric) * (1.0 / 3.0)) {
+    const N a = g.xx - mean, b = g.yy - mean, c = g.zz - mean;
+    const N off = g.xy * g.xy + g.yz * g.yz + g.zx * g.zx;
+    third_j2 = (a * a + b * b + c * c + 2.0 * off) * (1.0 / 6.0);
+    deviator = 2.0 * square_root(third_j2);
   }
-  return mean + y;
-}
+  N coarse() const { return mean + deviator; }
+  /// Tightened by two Newton steps of the characteristic polynomial, which stay above the root.
+  N fine() const {
+    const N a = g.xx - mean, b = g.yy - mean, c = g.zz - mean;
+    const N det = a * (b * c - g.yz * g.yz) - g.xy * (g.xy * c - g.yz * g.zx) +
+                  g.zx * (g.xy * g.yz - b * g.zx);
+    // y^3 - 3 p2 y - det = 0 for the deviator's eigenvalue y, p2 = third_j2; y <= 2 sqrt(p2).
+    N y = deviator;
+    for (int i = 0; i < 2; ++i) {
+      const N slope = 3.0 * (y * y - third_j2) + 1e-300;
+      y -= (y * (y * y - 3.0 * third_j2) - det) / slope;
+    }
+    return mean + y;
+  }
 
-/// F and its rate, node by node: both together use every gradient once.
+ private:
+  Symmetric<N> g;
+  N mean, third_j2, deviator;
+};
+
+/// sum u_I (grad N_I)^T: F of positions, its rate of velocities. One after the other: nine sums fit
+/// the registers, eighteen do not.
 template <class N>
-void deformation_of(const HexReference<N>& ref, const HexNodes<N>& nodes, Tensor<N>& F,
-                    Tensor<N>& F_rate) {
-  for (int node = 0; node < 8; ++node)
+Tensor<N> gradient_of(const HexReference<N>& ref, const N (&u)[8][3]) {
+  Tensor<N> out;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) out(i, j) = u[0][i] * ref.gradient[0][j];
+  for (int node = 1; node < 8; ++node)
     for (int j = 0; j < 3; ++j) {
       const N b = ref.gradient[node][j];
-      for (int i = 0; i < 3; ++i)
-        if (node == 0) {
-          F(i, j) = nodes.x[node][i] * b;
-          F_rate(i, j) = nodes.v[node][i] * b;
-        } else {
-          F(i, j) += nodes.x[node][i] * b;
-          F_rate(i, j) += nodes.v[node][i] * b;
-        }
+      for (int i = 0; i < 3; ++i) out(i, j) += u[node][i] * b;
     }
-  for (int k = 0; k < 9; ++k) {
-    F(k / 3, k % 3) *= ref.inverse_volume;
-    F_rate(k / 3, k % 3) *= ref.inverse_volume;
-  }
+  for (int k = 0; k < 9; ++k) out(k / 3, k % 3) *= ref.inverse_volume;
+  return out;
 }
 
 /// omega^2 <= 8 J / rho0 (lambda tr g + 2 mu g_max), g = F^-T metric F^-1: the element eigenvalue
 /// bound of [flanagan1984] with the shear part bounded by the largest direction. dt^2 = 4 /
-/// omega^2.
+/// omega^2. Steps that even a coarse bound puts above `least_squared` need not be exact: they may
+/// come back as anything between.
 template <class N>
 N hex_stable_step_squared(const HexReference<N>& ref, const Tensor<N>& Fi, const N& J,
-                          const N& bulk_modulus, const N& shear_modulus) {
+                          const N& bulk_modulus, const N& shear_modulus, const N& least_squared) {
   N t[3][3];  // metric F^-1
   const N* m = ref.metric;
   for (int j = 0; j < 3; ++j) {
@@ -123,17 +131,30 @@ N hex_stable_step_squared(const HexReference<N>& ref, const Tensor<N>& Fi, const
   };
   const Symmetric<N> g{entry(0, 0), entry(1, 1), entry(2, 2),
                        entry(0, 1), entry(1, 2), entry(2, 0)};
+  const EigenvalueBound<N> largest(g);
   const N lambda = larger(N(bulk_modulus - 2.0 / 3.0 * shear_modulus), constant<N>(0));
-  const N stiffness = lambda * trace(g) + 2.0 * shear_modulus * largest_eigenvalue_bound(g);
-  return 0.5 * ref.density / (J * stiffness);
+  const N of_trace = lambda * trace(g), two_mu = 2.0 * shear_modulus;
+  const N coarse = 0.5 * ref.density / (J * (of_trace + two_mu * largest.coarse()));
+  if (all_positive(N(coarse - least_squared))) return coarse;
+  return 0.5 * ref.density / (J * (of_trace + two_mu * largest.fine()));
 }
 
+template <class N>
+N hex_stable_step_squared(const HexReference<N>& ref, const Tensor<N>& Fi, const N& J,
+                          const N& bulk_modulus, const N& shear_modulus) {
+  return hex_stable_step_squared(ref, Fi, J, bulk_modulus, shear_modulus,
+                                 constant<N>(std::numeric_limits<double>::infinity()));
+}
+
+/// `least_squared`: the smallest stable step found so far, squared; see above.
 template <class N, class Law>
 HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, const Law& law,
-                         const ElementControls& controls, double dt, N* history) {
+                         const ElementControls& controls, double dt, N* history,
+                         double least_squared) {
   SolidStep<N> step;
   step.dt = dt;
-  deformation_of(ref, nodes, step.F, step.F_rate);
+  step.F = gradient_of(ref, nodes.x);
+  step.F_rate = gradient_of(ref, nodes.v);
   step.J = determinant(step.F);
   step.F_inverse = inverse(step.F, step.J);
 
@@ -155,23 +176,30 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
     for (int j = 0; j < 3; ++j) material.P(i, j) -= q * step.F_inverse(j, i);
   answer.viscous_power = q * compression * ref.length * ref.length;  // V / l = l^2
 
-  // Hourglass control; its reaction on F is folded into the stress (see hex8.h).
-  answer.hourglass_stored = constant<N>(0);
-  answer.hourglass_power = constant<N>(0);
-  for (int i = 0; i < 3; ++i)
-    for (int node = 0; node < 8; ++node) answer.force[node][i] = constant<N>(0);
-  if (controls.hourglass != HourglassForm::None) {
-    const bool is_viscous = controls.hourglass == HourglassForm::Viscous;
-    const Tensor<N>& field = is_viscous ? step.F_rate : step.F;
-    N factor;
-    if (is_viscous)
-      factor = (0.25 * controls.hourglass_coefficient * law.density) * ref.length * ref.length *
-               wave_speed;
-    else
-      factor = (0.125 * controls.hourglass_coefficient) * material.shear_modulus * ref.volume *
-               (ref.metric[0] + ref.metric[1] + ref.metric[2]);
-    N sum = constant<N>(0);
-    for (int i = 0; i < 3; ++i) {
+  // Damping with ratio s = (Q1 e l + Q2 c) / c shortens the step by sqrt(1 + s^2) - s.
+  const N ratio =
+      where_less(constant<N>(0), compression, N(viscous_speed / wave_speed), constant<N>(0));
+  const N shorten = square_root(N(1.0 + ratio * ratio)) - ratio;
+  const N shorten_squared = shorten * shorten;
+  answer.stable_step_squared =
+      hex_stable_step_squared(ref, step.F_inverse, step.J, material.bulk_modulus,
+                              material.shear_modulus, N(least_squared / shorten_squared)) *
+      shorten_squared;
+
+  // Hourglass control; its reaction on F is folded into the stress (see hex8.h). Component by
+  // component, so that the loads of the modes stay in registers.
+  const bool is_viscous = controls.hourglass == HourglassForm::Viscous;
+  const bool is_controlled = controls.hourglass != HourglassForm::None;
+  const Tensor<N>& field = is_viscous ? step.F_rate : step.F;
+  const N factor = is_viscous
+                       ? N((0.25 * controls.hourglass_coefficient * law.density) * ref.length *
+                           ref.length * wave_speed)
+                       : N((0.125 * controls.hourglass_coefficient) * material.shear_modulus *
+                           ref.volume * (ref.metric[0] + ref.metric[1] + ref.metric[2]));
+  N sum = constant<N>(0);
+  for (int i = 0; i < 3; ++i) {
+    N load[8], P[3] = {material.P(i, 0), material.P(i, 1), material.P(i, 2)};
+    if (is_controlled) {
       N t[4];
       hourglass_modes(is_viscous ? nodes.v : nodes.x, i, t);
       for (int a = 0; a < 4; ++a) {
@@ -181,30 +209,23 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
         t[a] *= factor;
       }
       for (int j = 0; j < 3; ++j)
-        material.P(i, j) -=
-            ref.inverse_volume * (t[0] * ref.hourglass[0][j] + t[1] * ref.hourglass[1][j] +
-                                  t[2] * ref.hourglass[2][j] + t[3] * ref.hourglass[3][j]);
-      subtract_modes(t, i, answer.force);
+        P[j] -= ref.inverse_volume * (t[0] * ref.hourglass[0][j] + t[1] * ref.hourglass[1][j] +
+                                      t[2] * ref.hourglass[2][j] + t[3] * ref.hourglass[3][j]);
+      mode_loads(t, load);
+    } else {
+      for (N& l : load) l = constant<N>(0);
     }
-    (is_viscous ? answer.hourglass_power : answer.hourglass_stored) =
-        (is_viscous ? 1.0 : 0.5) * factor * sum;
+    for (int node = 0; node < 8; ++node)
+      answer.force[node][i] = load[node] - P[0] * ref.gradient[node][0] -
+                              P[1] * ref.gradient[node][1] - P[2] * ref.gradient[node][2];
   }
+  const N resisted = is_controlled ? N(factor * sum) : constant<N>(0);
+  answer.hourglass_power = is_viscous ? resisted : constant<N>(0);
+  answer.hourglass_stored = is_viscous ? constant<N>(0) : N(0.5 * resisted);
 
-  for (int node = 0; node < 8; ++node)
-    for (int i = 0; i < 3; ++i)
-      answer.force[node][i] =
-          (answer.force[node][i] - material.P(i, 0) * ref.gradient[node][0] -
-           material.P(i, 1) * ref.gradient[node][1] - material.P(i, 2) * ref.gradient[node][2]) *
-          answer.alive;
-
-  // Damping with ratio s = (Q1 e l + Q2 c) / c shortens the step by sqrt(1 + s^2) - s.
-  const N ratio =
-      where_less(constant<N>(0), compression, N(viscous_speed / wave_speed), constant<N>(0));
-  const N shorten = square_root(N(1.0 + ratio * ratio)) - ratio;
-  answer.stable_step_squared =
-      hex_stable_step_squared(ref, step.F_inverse, step.J, material.bulk_modulus,
-                              material.shear_modulus) *
-      shorten * shorten;
+  if constexpr (requires { Law::kAlive; })
+    for (auto& corner : answer.force)
+      for (N& f : corner) f *= answer.alive;
   return answer;
 }
 

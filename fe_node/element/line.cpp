@@ -66,7 +66,8 @@ class LineBlock final : public ElementBlock {
 
       const Vec3 pull = length > 0 ? Vec3(answer.force / length * span) : Vec3::Zero();
       for (int corner = 0; corner < 2; ++corner)
-        Eigen::Map<Vec3>{corner_forces.data() + corner_slot(e / kLanes, corner, e % kLanes)} =
+        Eigen::Map<Vec3>{corner_forces.data() +
+                         corner_slot(e / kLanes - first, corner, e % kLanes)} =
             corner == 0 ? pull : Vec3(-pull);
       if (!(length >= 0) || !std::isfinite(answer.force)) {
         if (sums.inverted_element < 0) sums.inverted_element = e;

@@ -60,7 +60,7 @@ struct Accumulator {
     n.yz += shear_share * s.yz;
     n.zx += shear_share * s.zx;
     sum.thinning += point.weight * point_answer.thinning;
-    sum.alive = sum.alive.max(point_answer.alive);
+    sum.alive = larger(sum.alive, point_answer.alive);
   }
 };
 

@@ -39,6 +39,7 @@ class ShellBlock final : public ElementBlock {
   double corner_inertia(int element) const override {
     return corner_mass(element) * gyration_[element];
   }
+  double added_mass(int element) const override { return added_[element]; }
   double element_volume(int element) const override { return area_[element] * thickness_[element]; }
   double density() const override { return density_; }
   void forces(const StepContext& step, std::span<double> history, std::span<double> corner_forces,
@@ -54,7 +55,10 @@ class ShellBlock final : public ElementBlock {
 
  private:
   ShellGeometry<kCorners> load(const StepContext& step, int group) const;
-  Lanes per_lane(const std::vector<double>& values, int group) const;
+  using PerElement = std::vector<double, Eigen::aligned_allocator<double>>;  ///< padded like groups
+  static const Lanes& lanes_of(const PerElement& values, int group) {
+    return *reinterpret_cast<const Lanes*>(values.data() + std::size_t(group) * kLanes);
+  }
   Lanes stable_step_squared(const ShellShape<kCorners>& shape, const Lanes& thickness,
                             const Lanes& mass, const Lanes& gyration) const;
   void add_hourglass(const ShellShape<kCorners>& middle, const ShellShape<kCorners>& end,
@@ -62,11 +66,14 @@ class ShellBlock final : public ElementBlock {
                      double dt, Lanes* history, Lanes3 (&force)[kCorners],
                      Lanes3 (&moment)[kCorners], Lanes& dissipated) const;
 
+  void find_inverted(const Lanes& area, int group, BlockSums& sums) const;
+
   ShellSection section_;
   ElementControls controls_;
   double density_ = 0;
-  double youngs_ = 0, poisson_ = 0;  ///< of the stiffest layer
-  std::vector<double> thickness_, area_, mass_, gyration_, step_;
+  double youngs_ = 0, poisson_ = 0;                       ///< of the stiffest layer
+  PerElement thickness_, area_, mass_, gyration_, step_;  ///< mass with what scaling added
+  PerElement added_;                                      ///< kg
 };
 
 template <int kCorners>
@@ -86,16 +93,14 @@ ShellBlock<kCorners>::ShellBlock(const Mesh& mesh, ElementKind kind, int part,
           }
         },
         layer.law);
-  const int count = element_count();
-  thickness_.assign(count, section.thickness);
+  const std::size_t padded = std::size_t(group_count()) * kLanes;
+  thickness_.assign(padded, section.thickness);
   if (!thickness.empty()) {
-    CW_ASSERT(static_cast<int>(thickness.size()) == count);
-    thickness_.assign(thickness.begin(), thickness.end());
+    CW_ASSERT(static_cast<int>(thickness.size()) == element_count());
+    std::copy(thickness.begin(), thickness.end(), thickness_.begin());
+    std::fill(thickness_.begin() + element_count(), thickness_.end(), thickness.back());
   }
-  area_.resize(count);
-  mass_.resize(count);
-  gyration_.resize(count);
-  step_.resize(count);
+  for (PerElement* values : {&area_, &mass_, &gyration_, &step_, &added_}) values->resize(padded);
   for (int group = 0; group < group_count(); ++group) {
     Lanes3 x[kCorners];
     for (int corner = 0; corner < kCorners; ++corner)
@@ -106,27 +111,20 @@ ShellBlock<kCorners>::ShellBlock(const Mesh& mesh, ElementKind kind, int part,
         x[corner].z[lane] = p.z();
       }
     const ShellShape<kCorners> shape = shell_shape(x);
-    const Lanes t = per_lane(thickness_, group);
+    const Lanes t = lanes_of(thickness_, group);
     const Lanes mass = density_ * shape.area * t, gyration = (shape.area + t * t) * (1.0 / 12);
     const Lanes step2 = stable_step_squared(shape, t, mass, gyration);
-    for (int lane = 0; lane < kLanes && group * kLanes + lane < count; ++lane) {
+    for (int lane = 0; lane < kLanes; ++lane) {
       const int element = group * kLanes + lane;
       const double step = std::sqrt(step2[lane]);
       const double scaling = std::max(1.0, controls.minimum_step / step);
       area_[element] = shape.area[lane];
-      mass_[element] = mass[lane] * scaling * scaling;
+      added_[element] = mass[lane] * (scaling * scaling - 1);
+      mass_[element] = mass[lane] + added_[element];
       gyration_[element] = gyration[lane];
       step_[element] = step * scaling;
     }
   }
-}
-
-template <int kCorners>
-Lanes ShellBlock<kCorners>::per_lane(const std::vector<double>& values, int group) const {
-  Lanes out;
-  for (int lane = 0; lane < kLanes; ++lane)
-    out[lane] = values[std::min(group * kLanes + lane, element_count() - 1)];
-  return out;
 }
 
 template <int kCorners>
@@ -135,7 +133,7 @@ void ShellBlock<kCorners>::initialise(std::span<double> history) const {
     Lanes* h = reinterpret_cast<Lanes*>(history.data() +
                                         static_cast<std::size_t>(group) * history_per_group());
     for (int i = 0; i < kHeader; ++i) h[i] = Lanes::Zero();
-    h[kThickness] = per_lane(thickness_, group);
+    h[kThickness] = lanes_of(thickness_, group);
     h[kAlive] = Lanes::Ones();
     initialise_section(section_, h + kHeader);
   }
@@ -147,9 +145,11 @@ ShellGeometry<kCorners> ShellBlock<kCorners>::load(const StepContext& step, int 
   const int* index = group_nodes(group);
   const bool is_bending = has_moments();
   for (int corner = 0; corner < kCorners; ++corner, index += kLanes) {
-    const NodeLanes nodes = load_nodes(step.nodes, index);
-    g.x[corner] = {nodes.x[0], nodes.x[1], nodes.x[2]};
-    g.v[corner] = {nodes.v[0], nodes.v[1], nodes.v[2]};
+    Lanes x[3], v[3];
+    load_positions(step.nodes, index, x);
+    load_velocities(step.nodes, index, v);
+    g.x[corner] = {x[0], x[1], x[2]};
+    g.v[corner] = {v[0], v[1], v[2]};
     if (!is_bending) continue;
     load_vectors(step.spin, index, g.spin[corner].x, g.spin[corner].y, g.spin[corner].z);
   }
@@ -174,7 +174,7 @@ Lanes ShellBlock<kCorners>::stable_step_squared(const ShellShape<kCorners>& shap
     Lanes shear = (0.5 * two_mu * section_.shear_factor) * shear_metric(shape, gyration);
     if (kCorners == 3)  // shear of the triangle meets its curvature; of the quadrilateral it cannot
       shear = bending + shear * shear_softening(thickness, shape.area);
-    stiffness = membrane.max(bending).max(shear);
+    stiffness = larger(larger(membrane, bending), shear);
   }
   return 4.0 * mass / (kCorners * shape.area * thickness * stiffness);
 }
@@ -220,7 +220,7 @@ void ShellBlock<kCorners>::add_hourglass(const ShellShape<kCorners>& middle,
         (r * section_.shear_factor * 0.5 * youngs_ / (1 + poisson_) / 12) * t * t * t * trace;
   } else {
     const double c = std::sqrt(youngs_ / (density_ * (1 - poisson_ * poisson_)));
-    factor[0] = (0.25 * r * c) * mass / end.area.sqrt();
+    factor[0] = (0.25 * r * c) * mass / square_root(end.area);
     factor[2] = factor[0] * t * t * (1.0 / 12);
     factor[1] = factor[2] * trace;
   }
@@ -261,6 +261,7 @@ CW_FLATTEN void ShellBlock<kCorners>::forces(const StepContext& step, std::span<
                                              BlockSums& sums) const {
   const bool is_bending = has_moments();
   const double half = 0.5 * step.dt;
+  LaneSums lanes;
   for (int group = first; group < last; ++group) {
     Lanes* h = reinterpret_cast<Lanes*>(history.data() +
                                         static_cast<std::size_t>(group) * history_per_group());
@@ -283,11 +284,11 @@ CW_FLATTEN void ShellBlock<kCorners>::forces(const StepContext& step, std::span<
     SectionAnswer answer =
         integrate_section(section_, e, h[kThickness], shear_factor, step.dt, h + kHeader);
     h[kEnergy] += answer.work * middle.area * h[kAlive];
-    h[kAlive] = h[kAlive].min(answer.alive);
+    h[kAlive] = smaller(h[kAlive], answer.alive);
     if (section_.thinning == ShellThinning::FollowsStrain) h[kThickness] *= 1.0 + answer.thinning;
 
     const ShellShape<kCorners> end = shell_shape(g.x);
-    const Lanes mass = per_lane(mass_, group);
+    const Lanes mass = lanes_of(mass_, group);
     Lanes3 force[kCorners], moment[kCorners];
     for (int i = 0; i < kCorners; ++i) shell_loads(end, answer.resultants, i, force[i], moment[i]);
     Lanes dissipated = Lanes::Zero();
@@ -296,31 +297,36 @@ CW_FLATTEN void ShellBlock<kCorners>::forces(const StepContext& step, std::span<
         add_hourglass(middle, end, v, spin, mass, step.dt, h, force, moment, dissipated);
     }
     for (int i = 0; i < kCorners; ++i) {
-      const std::size_t slot = corner_slot(group, i, 0);
+      const std::size_t slot = corner_slot(group - first, i, 0);
       store(end.frame.to_world(force[i]), h[kAlive], corner_forces.data() + slot);
       if (is_bending) store(end.frame.to_world(moment[i]), h[kAlive], corner_moments.data() + slot);
     }
 
     const Lanes mask = lane_mask(group);
-    sums.internal += (h[kEnergy] * mask).sum();
-    sums.hourglass += (h[kHourglassEnergy] * mask).sum();
-    sums.hourglass_dissipated += (dissipated * h[kAlive] * mask).sum();
-    sums.failed += static_cast<int>(((1.0 - h[kAlive]) * mask).sum() + 0.5);
-    for (int lane = 0; lane < kLanes; ++lane)
-      if (h[kAlive][lane] > 0.5 && !(end.area[lane] > 0) && sums.inverted_element < 0) {
-        sums.inverted_element = std::min(group * kLanes + lane, element_count() - 1);
-        sums.inverted_jacobian = end.area[lane] / area_[sums.inverted_element];
-      }
-    if (!step.wants_stable_step) continue;
-    const Lanes step2 = stable_step_squared(end, h[kThickness], mass, per_lane(gyration_, group));
-    const Lanes limit = where_less(h[kAlive], Lanes::Constant(0.5), Lanes::Constant(1e300), step2);
-    int lane = 0;
-    const double smallest = std::sqrt(limit.minCoeff(&lane));
-    if (smallest < sums.stable_step) {
-      sums.stable_step = smallest;
-      sums.critical_element = std::min(group * kLanes + lane, element_count() - 1);
-    }
+    const Lanes live = h[kAlive] * mask;
+    lanes.internal += h[kEnergy] * mask;
+    lanes.hourglass += h[kHourglassEnergy] * mask;
+    lanes.hourglass_dissipated += dissipated * live;
+    lanes.failed += mask - live;
+    const Lanes half_alive = Lanes::Constant(0.5);
+    const Lanes area = where_less(half_alive, live, end.area, Lanes::Ones());
+    if (!all_positive(area)) find_inverted(area, group, sums);
+    if (step.wants_stable_step)
+      lanes.limit_step(
+          where_less(live, half_alive, Lanes::Constant(1e300),
+                     stable_step_squared(end, h[kThickness], mass, lanes_of(gyration_, group))),
+          group);
   }
+  lanes.book(sums);
+}
+
+template <int kCorners>
+void ShellBlock<kCorners>::find_inverted(const Lanes& area, int group, BlockSums& sums) const {
+  for (int lane = 0; lane < kLanes && sums.inverted_element < 0; ++lane)
+    if (!(area[lane] > 0)) {
+      sums.inverted_element = group * kLanes + lane;
+      sums.inverted_jacobian = area[lane] / area_[sums.inverted_element];
+    }
 }
 
 template <int kCorners>

@@ -32,7 +32,7 @@ inline Lanes3 difference(const Lanes3& a, const Lanes3& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 inline Lanes3 sum(const Lanes3& a, const Lanes3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Lanes3 unit(const Lanes3& a) { return scaled(a, Lanes(1.0 / dot(a, a).sqrt())); }
+inline Lanes3 unit(const Lanes3& a) { return scaled(a, 1.0 / square_root(dot(a, a))); }
 
 /// Axes of the local frame, in W.
 struct ShellFrame {
@@ -169,7 +169,7 @@ void shell_loads(const ShellShape<kCorners>& s, const SectionVector& n, int i, L
 
 inline Lanes larger_eigenvalue(const Lanes& xx, const Lanes& yy, const Lanes& xy) {
   const Lanes half = 0.5 * (xx - yy);
-  return 0.5 * (xx + yy) + (half * half + xy * xy).sqrt();
+  return 0.5 * (xx + yy) + square_root(half * half + xy * xy);
 }
 
 /// Larger eigenvalue of sum_I b_I b_I^T and its trace, 1/m2.

@@ -80,7 +80,7 @@ class Tet4Block final : public ElementBlock {
   double initial_stable_step(int element) const override {
     const int group = element / kLanes;
     Tensor<Lanes> identity;
-    for (int k = 0; k < 9; ++k) identity(k / 3, k % 3).setConstant(k % 4 == 0 ? 1.0 : 0.0);
+    for (int k = 0; k < 9; ++k) identity(k / 3, k % 3) = Lanes::Constant(k % 4 == 0 ? 1.0 : 0.0);
     return std::sqrt(stable_step_squared(group, identity, Lanes::Ones(),
                                          Lanes::Constant(law_.bulk_modulus()),
                                          Lanes::Constant(law_.shear_modulus()))[element % kLanes]);
@@ -198,11 +198,8 @@ template <class Law>
 TetNodes Tet4Block<Law>::load(const StepContext& step, int group) const {
   TetNodes out;
   for (int c = 0; c < 4; ++c) {
-    const NodeLanes corner = load_nodes(step.nodes, group_nodes(group) + c * kLanes);
-    for (int i = 0; i < 3; ++i) {
-      out.x[c][i] = corner.x[i];
-      out.v[c][i] = corner.v[i];
-    }
+    load_positions(step.nodes, group_nodes(group) + c * kLanes, out.x[c]);
+    load_velocities(step.nodes, group_nodes(group) + c * kLanes, out.v[c]);
   }
   return out;
 }
@@ -277,6 +274,7 @@ template <class Law>
 void Tet4Block<Law>::forces(const StepContext& step, std::span<double> history,
                             std::span<double> corner_forces, std::span<double> /*moments*/,
                             int first, int last, BlockSums& sums) const {
+  LaneSums lanes;
   for (int group = first; group < last; ++group) {
     const TetReference& ref = groups_[group];
     const TetNodes nodes = load(step, group);
@@ -307,7 +305,7 @@ void Tet4Block<Law>::forces(const StepContext& step, std::span<double> history,
       for (int i = 0; i < 3; ++i)
         f[i] = factor * (P(i, 0) * ref.gradient[c][0] + P(i, 1) * ref.gradient[c][1] +
                          P(i, 2) * ref.gradient[c][2]);
-      store_corner(f[0], f[1], f[2], corner_forces.data() + corner_slot(group, c, 0));
+      store_corner(f[0], f[1], f[2], corner_forces.data() + corner_slot(group - first, c, 0));
     }
     answer.alive = h[kAlive];
     answer.energy = h[kEnergy];
@@ -318,8 +316,9 @@ void Tet4Block<Law>::forces(const StepContext& step, std::span<double> history,
     const Lanes shorten = square_root(Lanes(1.0 + ratio * ratio)) - ratio;
     answer.stable_step_squared =
         stable_step_squared(group, F_inverse, answer.J, h[kBulk], h[kShear]) * shorten * shorten;
-    add_to_sums(answer, lane_mask(group), step, group * kLanes, element_count(), sums);
+    add_to_sums(answer, lane_mask(group), step, group, element_count(), lanes, sums);
   }
+  lanes.book(sums);
 }
 
 template <class Law>

@@ -37,7 +37,7 @@ std::map<std::pair<ElementKind, int>, std::pair<int, int>> places_of(const Model
 }  // namespace
 
 HistoryWriter::HistoryWriter(const Model& model, HistoryRequests requests,
-                             const std::filesystem::path& folder)
+                             const std::filesystem::path& folder, Scratch& scratch)
     : model_(model), requests_(std::move(requests)) {
   std::filesystem::create_directories(folder);
   const auto places = places_of(model);
@@ -54,9 +54,7 @@ HistoryWriter::HistoryWriter(const Model& model, HistoryRequests requests,
       for (int c = 0; c < block.corners(); ++c) {
         const int node = block.node(e / kLanes, c, e % kLanes);
         if (!std::binary_search(section.nodes.begin(), section.nodes.end(), node)) continue;
-        const std::size_t slot = block.corner_slot(e / kLanes, c, e % kLanes);
-        corners.push_back({node, model.force_offset[b] + slot, model.moment_offset[b] + slot,
-                           block.has_moments()});
+        corners.push_back({node, scratch.add_tap(model, b, e, c)});
       }
     }
   }
@@ -79,11 +77,9 @@ Wrench HistoryWriter::section_force(const State& state, const Scratch& scratch, 
   for (int n : nodes) centre += state.nodes[n].position() / static_cast<double>(nodes.size());
   Wrench sum;
   for (const Corner& corner : corners_[section]) {
-    const Vec3 f = Eigen::Map<const Vec3>(scratch.corner_forces.data() + corner.force);
-    sum.f += f;
-    sum.tau += (state.nodes[corner.node].position() - centre).cross(f);
-    if (corner.has_moment)
-      sum.tau += Eigen::Map<const Vec3>(scratch.corner_moments.data() + corner.moment);
+    const Scratch::Tap& tap = scratch.taps[corner.tap.first][corner.tap.second];
+    sum.f += tap.force;
+    sum.tau += (state.nodes[corner.node].position() - centre).cross(tap.force) + tap.moment;
   }
   return sum;
 }

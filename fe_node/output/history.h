@@ -22,8 +22,10 @@ struct Scratch;
 
 class HistoryWriter {
  public:
-  /// Makes the folder; throws UserError when it cannot be written to.
-  HistoryWriter(const Model& model, HistoryRequests requests, const std::filesystem::path& folder);
+  /// Makes the folder; throws UserError when it cannot be written to. Sections need their corners
+  /// kept in `scratch` from now on.
+  HistoryWriter(const Model& model, HistoryRequests requests, const std::filesystem::path& folder,
+                Scratch& scratch);
   /// Right after compute_forces().
   void write(const State& state, const Scratch& scratch);
 
@@ -36,8 +38,7 @@ class HistoryWriter {
   };
   struct Corner {
     int node = 0;
-    std::size_t force = 0, moment = 0;  ///< slots of the corner arrays
-    bool has_moment = false;
+    std::pair<int, int> tap;  ///< see Scratch::add_tap()
   };
   void write_elements(const State& state);
   void write_contacts(const State& state, const Scratch& scratch);

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "common/error.h"
+
 namespace crosswalk::fe {
 namespace {
 
@@ -38,9 +40,15 @@ std::uint64_t digest_words(const void* data, std::size_t size, std::uint64_t dig
 
 }  // namespace
 
-void write_state(const State& state, ByteWriter& writer) { visit(writer, state); }
+void write_state(const State& state, ByteWriter& writer) {
+  writer.value(kLanes);  // histories are laid out in groups of so many elements
+  visit(writer, state);
+}
 
 void read_state(ByteReader& reader, State& state) {
+  if (reader.take<int>() != kLanes)
+    throw ProtocolError(ExitCode::CheckpointMismatch,
+                        "the saved state comes from a program built for another kind of processor");
   State read = state;  // `state` stays whole when the bytes do not fit
   visit(reader, read);
   state = std::move(read);

@@ -77,7 +77,7 @@ inline NodalLoads loads_after(const Model& model, const PlateMotion& motion) {
     nodes[n].set_position(model.mesh.position[n] + motion.displacement[n]);
     nodes[n].set_velocity(motion.displacement[n]);
   }
-  const std::size_t size = block.corner_array_size();
+  const std::size_t size = block.corner_array_size(block.group_count());
   std::vector<double, Eigen::aligned_allocator<double>> history(
       static_cast<std::size_t>(block.group_count()) * block.history_per_group()),
       forces(size), moments(size);

@@ -178,10 +178,10 @@ TEST(FeDeck, SectionCarriesTheForceAndTheMomentOfTheLoad) {
   EXPECT_EQ(built_model.histories.elements.size(), 1U);
   EXPECT_DOUBLE_EQ(built_model.histories.interval, 1e-2);
   State state = initial_state(model);
-  const HistoryWriter writer(model, built_model.histories,
-                             std::filesystem::path(testing::TempDir()) / "section_test");
-  run_until(model, state, 1.2, 0.9, [] {});
   Scratch scratch(model, 1);
+  const HistoryWriter writer(model, built_model.histories,
+                             std::filesystem::path(testing::TempDir()) / "section_test", scratch);
+  run_until(model, state, 1.2, 0.9, [] {});
   compute_forces(model, state, scratch);
   const Wrench section = writer.section_force(state, scratch, 0);
   EXPECT_NEAR(section.f.x(), -20, 0.02 * 20);
@@ -204,10 +204,10 @@ TEST(FeDeck, PressureOnSegmentsIsCarriedThroughTheSection) {
   finish_model(built_model);
   const Model& model = built_model.model;
   State state = initial_state(model);
-  const HistoryWriter writer(model, built_model.histories,
-                             std::filesystem::path(testing::TempDir()) / "pressure_test");
-  run_until(model, state, 0.6, 0.9, [] {});
   Scratch scratch(model, 1);
+  const HistoryWriter writer(model, built_model.histories,
+                             std::filesystem::path(testing::TempDir()) / "pressure_test", scratch);
+  run_until(model, state, 0.6, 0.9, [] {});
   compute_forces(model, state, scratch);
   EXPECT_NEAR(writer.section_force(state, scratch, 0).f.x(), 3000 * 0.01, 0.01 * 30);
   // work done on the bar: p A times half the shortening of its end, and what damping took

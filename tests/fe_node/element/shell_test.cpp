@@ -43,6 +43,26 @@ TEST_P(EveryShell, RigidMotionGivesNoLoad) {
   }
 }
 
+// Twice the step takes four times the mass; the part's own mass is told apart from what was added.
+TEST_P(EveryShell, MassScalingIsReportedPerPart) {
+  const ShellSection section = uniform_section(kGlass, kThickness, 3);
+  Model plain = plate_model(plate(4, 4), section);
+  plain.finish();
+  ElementControls controls;
+  controls.minimum_step = 2 * initial_stable_step(plain);
+  Model scaled = plate_model(plate(4, 4), section, controls);
+  scaled.finish();
+  const double own = 2500 * kThickness;  // 1 m2
+  EXPECT_DOUBLE_EQ(plain.added_mass[0], 0);
+  EXPECT_NEAR(scaled.part_mass[0], own, 1e-9 * own);
+  EXPECT_NEAR(scaled.total_mass() - scaled.added_mass[0], own, 1e-9 * own);
+  // every quadrilateral is alike; of the triangles those with a longer step need less
+  if (GetParam() == ElementKind::Quad4)
+    EXPECT_NEAR(scaled.added_mass[0], 3 * own, 1e-9 * own);
+  else
+    EXPECT_GT(scaled.added_mass[0], own);
+}
+
 TEST_P(EveryShell, MembranePatchCarriesConstantStress) {
   const Plate shape = plate(4, 4);
   Model model = plate_model(shape, uniform_section(kGlass, kThickness, 3), {}, skewed);

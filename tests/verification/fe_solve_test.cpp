@@ -89,6 +89,59 @@ TEST_F(SolveDeck, ARestartGoesOnBitIdentically) {
   EXPECT_TRUE(fs::exists(whole.folder / "contacts.csv"));
 }
 
+/// A column of three plastic bricks that fail at 10 % and a heavy brick that falls on it.
+std::string eroding_column() {
+  std::string text =
+      "*SECTION_SOLID\n1,1\n*PART\ncolumn\n1,1,1\n*PART\nhammer\n2,1,2\n"
+      "*MAT_PLASTIC_KINEMATIC\n1,2700,10e9,0.33,1e7,1e7,1\n0,0,0.1\n"
+      "*MAT_ELASTIC\n2,20000,10e9,0.3\n*NODE\n";
+  const auto layer = [&](int first, double low, double high, double z) {
+    for (int c = 0; c < 4; ++c)
+      text += node_card(first + c, {c == 1 || c == 2 ? high : low, c >= 2 ? high : low, z});
+  };
+  for (int k = 0; k <= 3; ++k) layer(1 + 4 * k, 0, 0.1, 0.1 * k);
+  layer(21, -0.02, 0.12, 0.301);
+  layer(25, -0.02, 0.12, 0.401);
+  text += "*ELEMENT_SOLID\n";
+  for (int k = 0; k < 3; ++k) {
+    text += fmt::format("{},1", k + 1);
+    for (int c = 1; c <= 8; ++c) text += fmt::format(",{}", 4 * k + c);
+    text += "\n";
+  }
+  return text +
+         "10,2,21,22,23,24,25,26,27,28\n*SET_NODE_LIST\n1\n1,2,3,4\n*BOUNDARY_SPC_SET\n1,0,1,1,1\n"
+         "*SET_NODE_LIST\n2\n21,22,23,24,25,26,27,28\n*INITIAL_VELOCITY\n2\n0,0,-20\n"
+         "*CONTACT_ERODING_SURFACE_TO_SURFACE\n2,1,3,3\n\n\n0,1,1\n"
+         "*DATABASE_HISTORY_SOLID\n1,3\n*DATABASE_ELOUT\n5e-5\n*CONTROL_TERMINATION\n1.5e-2\n";
+}
+
+// The hammer crushes the top brick until it fails, goes on through the place where it was, and
+// meets the brick below on the face that the failure uncovered.
+TEST_F(SolveDeck, AFailedBrickUncoversTheNextOneInARun) {
+  const SolveRequest erosion = request(eroding_column(), "erosion");
+  const SolveResult end = solve_deck(erosion);
+  EXPECT_LT(std::abs(end.energies.balance_error()), 0.05);
+  std::ifstream elements(erosion.folder / "elements.csv"),
+      contacts(erosion.folder / "contacts.csv");
+  double failed_at = -1;
+  for (std::string line; std::getline(elements, line);)
+    if (line.find(",3,") != line.npos && line.ends_with(",0") && failed_at < 0)
+      failed_at = std::stod(line);
+  EXPECT_GT(failed_at, 1e-3 / 20);  // not before they met
+  // the next contact begins a brick further down: at least 80 mm at 20 m/s later
+  double gap_from = -1, met_again = -1;
+  for (std::string line; std::getline(contacts, line);) {
+    if (!std::isdigit(static_cast<unsigned char>(line[0]))) continue;
+    const double time = std::stod(line);
+    const bool touches = !line.ends_with(",0");
+    if (time > failed_at && !touches && gap_from < 0) gap_from = time;
+    if (gap_from > 0 && touches && met_again < 0) met_again = time;
+  }
+  EXPECT_GT(gap_from, 0);
+  EXPECT_GT(met_again, failed_at + 0.08 / 20);
+  EXPECT_LT(met_again, end.time);
+}
+
 /// One brick whose top is driven through its bottom.
 std::string crushed_brick() {
   std::string text =

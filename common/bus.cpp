@@ -128,7 +128,7 @@ msg::header Bus::header(MessageKind kind, std::int64_t seq, int attempt) const {
 }
 
 void Bus::send(MessageKind kind, std::span<const std::byte> bytes) {
-  CW_ASSERT(bytes.size() <= static_cast<std::size_t>(kMaxMessageBytes));
+  CW_ASSERT(bytes.size() <= kMaxMessageBytes + kSealBytes);
   const std::string channel = channel_name(run_, kind, role_);
   if (faults_) {
     faults_->send(*transport_, channel, bytes);
@@ -137,7 +137,20 @@ void Bus::send(MessageKind kind, std::span<const std::byte> bytes) {
   }
 }
 
-void Bus::subscribe_raw(const std::string& pattern, RawHandler handler) {
+void Bus::subscribe_sealed(RawHandler handler) {
+  subscribe_to(
+      channel_pattern(run_),
+      [this, handler = std::move(handler)](
+          const std::string& channel, std::span<const std::byte> data, std::int64_t received_us) {
+        if (unsealed(run_, data)) {
+          handler(channel, data, received_us);
+        } else {
+          refuse();
+        }
+      });
+}
+
+void Bus::subscribe_to(const std::string& pattern, RawHandler handler) {
   if (!transport_->subscribe(pattern, std::move(handler))) {
     throw ProtocolError(ExitCode::NoTransport,
                         "LCM hears none of its own messages: multicast does not loop back on this "

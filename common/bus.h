@@ -1,10 +1,10 @@
 // One process's view of one run's traffic.
 //
 // The transport below, LCM, is a lossy datagram bus. The gate in front of every handler drops what
-// is not ours (size, type hash, protocol, kind, run, sender) and counts it; reliability is built
-// above (participant, coupler, recorder). Handlers run inside wait(); what they throw is raised
-// from wait(), never through LCM's C code. publish() may be called from any thread, everything else
-// from one.
+// is not ours (seal, size, type hash, protocol, kind, run, sender) and counts it; reliability is
+// built above (participant, coupler, recorder). Handlers run inside wait(); what they throw is
+// raised from wait(), never through LCM's C code. publish() may be called from any thread,
+// everything else from one.
 #pragma once
 
 #include <chrono>
@@ -20,6 +20,7 @@
 
 #include "common/messages.h"
 #include "common/protocol.h"
+#include "common/seal.h"
 #include "common/transport.h"
 #include "crosswalk/msg/header.hpp"
 
@@ -60,12 +61,16 @@ class Bus {
   /// Messages the gate refused so far.
   int dropped() const { return dropped_; }
 
-  /// Fills the header and sends. Returns the encoded bytes, for re-sending.
+  /// Fills the header, seals and sends. Returns the bytes, for re-sending.
   template <class M>
   std::vector<std::byte> publish(M message, std::int64_t seq, int attempt = 1) {
     message.h = header(kKindOf<M>, seq, attempt);
-    std::vector<std::byte> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    std::vector<std::byte> bytes;
+    const auto size = static_cast<std::size_t>(message.getEncodedSize());
+    bytes.reserve(size + kSealBytes);
+    bytes.resize(size);
+    message.encode(bytes.data(), 0, static_cast<int>(size));
+    seal(run_, bytes);
     send(kKindOf<M>, bytes);
     return bytes;
   }
@@ -75,28 +80,31 @@ class Bus {
   /// Messages of type M from `sender`; this bus's own are never delivered.
   template <class M>
   void subscribe(Role sender, std::function<void(const M&)> handler) {
-    subscribe_raw(channel_name(run_, kKindOf<M>, sender),
-                  [this, sender, handler = std::move(handler)](
-                      const std::string&, std::span<const std::byte> data, std::int64_t) {
-                    M message{};
-                    if (decode(data, message, sender)) handler(message);
-                  });
+    subscribe_to(channel_name(run_, kKindOf<M>, sender),
+                 [this, sender, handler = std::move(handler)](
+                     const std::string&, std::span<const std::byte> data, std::int64_t) {
+                   M message{};
+                   if (decode(data, message, sender)) handler(message);
+                 });
   }
   template <class M>
   void subscribe_any_sender(std::function<void(const M&)> handler) {
-    subscribe_raw(channel_pattern(run_, kKindOf<M>),
-                  [this, handler = std::move(handler)](
-                      const std::string&, std::span<const std::byte> data, std::int64_t) {
-                    M message{};
-                    if (decode(data, message, std::nullopt)) handler(message);
-                  });
+    subscribe_to(channel_pattern(run_, kKindOf<M>),
+                 [this, handler = std::move(handler)](
+                     const std::string&, std::span<const std::byte> data, std::int64_t) {
+                   M message{};
+                   if (decode(data, message, std::nullopt)) handler(message);
+                 });
   }
-  /// Everything on channels that match the regular expression, undecoded and unchecked.
-  void subscribe_raw(const std::string& pattern, RawHandler handler);
+  /// Every message of the run with a sound seal, whoever sent it, undecoded.
+  void subscribe_sealed(RawHandler handler);
 
   /// The gate. False, and counted, for anything but a sound message of this type and run.
   template <class M>
-  bool decode(std::span<const std::byte> data, M& message, std::optional<Role> sender) {
+  bool decode(std::span<const std::byte> sealed, M& message, std::optional<Role> sender) {
+    const auto payload = unsealed(run_, sealed);
+    if (!payload) return refuse();
+    const std::span<const std::byte> data = *payload;
     const bool is_fixed = is_fixed_size(kKindOf<M>);
     if (!passes_size(kKindOf<M>, data, M::getHash(), is_fixed ? message.getEncodedSize() : -1))
       return false;
@@ -112,6 +120,8 @@ class Bus {
   void handle_pending();
 
  private:
+  /// Channels that the regular expression matches.
+  void subscribe_to(const std::string& pattern, RawHandler handler);
   msg::header header(MessageKind kind, std::int64_t seq, int attempt) const;
   static bool is_fixed_size(MessageKind kind);
   bool passes_size(MessageKind kind, std::span<const std::byte> data, std::int64_t hash,

@@ -24,16 +24,17 @@
 
 namespace crosswalk {
 
-/// Raised on any change of a message's meaning, even when its type hash stays.
-inline constexpr int kProtocolVersion = 1;
+/// Raised on any change of a message's meaning, even when its type hash stays. Version 1 had no
+/// seal (common/seal.h); its logs are still read.
+inline constexpr int kProtocolVersion = 2;
 inline constexpr int kMaxInterfaceBodies = 8;  ///< array size in the lockstep messages
 inline constexpr int kMaxAttachedBodies = 4;   ///< bodies with a mobility
-/// Encoded size of any message: one Ethernet frame of 1500 B less IP, UDP and LCM headers.
+/// Encoded size of any message: one Ethernet frame of 1500 B less IP, UDP and LCM headers and seal.
 inline constexpr int kMaxMessageBytes = 1400;
 /// The coupler stays at most this far ahead of the recorder's acknowledgement.
 inline constexpr int kMaxWindowsAhead = 64;
-/// Batched records are sent at the latest after so many windows; checkpoints fall on a multiple, when
-/// nothing waits.
+/// Batched records are sent at the latest after so many windows; checkpoints fall on a multiple,
+/// when nothing waits.
 inline constexpr int kWindowsPerFlush = 8;
 /// Text pieces of node_description and the longest free text of other messages, bytes.
 inline constexpr int kDescriptionPieceBytes = 1000;

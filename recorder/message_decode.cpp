@@ -2,11 +2,14 @@
 
 #include <array>
 
+#include "common/seal.h"
+
 namespace crosswalk::recording {
 
 namespace {
 
 constexpr std::size_t kHashBytes = 8;
+constexpr int kUnsealedProtocol = 1;  // the last one
 
 std::int32_t int32_at(std::span<const std::byte> data, std::size_t offset) {
   std::uint32_t value = 0;
@@ -20,17 +23,17 @@ std::int32_t int32_at(std::span<const std::byte> data, std::size_t offset) {
 std::optional<msg::header> peek_header(std::span<const std::byte> data) {
   msg::header h{};
   const auto header_bytes = static_cast<std::size_t>(h._getEncodedSizeNoHash());
-  if (data.size() < kHashBytes + header_bytes ||
-      data.size() > static_cast<std::size_t>(kMaxMessageBytes)) {
+  if (data.size() < kHashBytes + header_bytes || data.size() > kMaxMessageBytes + kSealBytes) {
     return std::nullopt;
   }
   if (h._decodeNoHash(data.data(), static_cast<int>(kHashBytes), static_cast<int>(header_bytes)) <
       0) {
     return std::nullopt;
   }
-  const bool is_ours = h.protocol == kProtocolVersion && h.sender >= 1 &&
-                       h.sender <= static_cast<int>(Role::Tool) && h.kind >= 1 &&
-                       h.kind <= static_cast<int>(kind_rules().size());
+  const bool is_sound = h.protocol == kUnsealedProtocol ||
+                        (h.protocol == kProtocolVersion && unsealed(h.run_id, data).has_value());
+  const bool is_ours = is_sound && h.sender >= 1 && h.sender <= static_cast<int>(Role::Tool) &&
+                       h.kind >= 1 && h.kind <= static_cast<int>(kind_rules().size());
   return is_ours ? std::optional<msg::header>(h) : std::nullopt;
 }
 

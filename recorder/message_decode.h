@@ -22,7 +22,8 @@
 
 namespace crosswalk::recording {
 
-/// The header that every message of ours opens with; nothing for anything that cannot be ours.
+/// The header that every message of ours opens with; nothing for anything that cannot be ours, a
+/// broken seal included.
 std::optional<msg::header> peek_header(std::span<const std::byte> data);
 
 /// False when the manifest's count of bodies cannot be true.

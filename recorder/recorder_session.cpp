@@ -21,12 +21,11 @@ RecorderSession::RecorderSession(Bus& bus, Recorder& recorder, NodeIdentity iden
     : NodeSession(bus, std::move(identity), limits, std::move(checkpoints)),
       recorder_(recorder),
       write_results_(std::move(write_results)) {
-  bus_.subscribe_raw(channel_pattern(bus_.run()),
-                     [this](const std::string& channel, std::span<const std::byte> data,
-                            std::int64_t received_us) {
-                       recorder_.add(channel, data, received_us);
-                       after_message();
-                     });
+  bus_.subscribe_sealed([this](const std::string& channel, std::span<const std::byte> data,
+                               std::int64_t received_us) {
+    recorder_.add(channel, data, received_us);
+    after_message();
+  });
 }
 
 void RecorderSession::on_manifest(const msg::run_manifest&) {

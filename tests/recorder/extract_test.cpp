@@ -143,6 +143,24 @@ TEST(Extract, MessagesOfAnotherRunAndGarbageAreLeftOut) {
   EXPECT_TRUE(same_bits(clean, extract(record)));
 }
 
+TEST(Extract, BrokenSealsAreLeftOutAndLogsFromBeforeThemAreRead) {
+  std::vector<RawMessage> messages = SyntheticRun{}.messages();
+  const RunChannels clean = extract(record_of(messages));
+  std::vector<RawMessage> mutated = messages;
+  for (RawMessage m : messages) {
+    m.data[m.data.size() / 2] ^= std::byte{4};
+    mutated.push_back(m);
+  }
+  const RunRecord record = record_of(mutated);
+  EXPECT_EQ(record.unreadable, static_cast<std::int64_t>(messages.size()));
+  EXPECT_TRUE(same_bits(clean, extract(record)));
+  for (RawMessage& m : messages) {
+    m.data.resize(m.data.size() - 8);
+    m.data[9] = std::byte{1};  // protocol, behind the type hash
+  }
+  EXPECT_TRUE(same_bits(clean, extract(record_of(messages))));
+}
+
 TEST(Numbers, TellsGapsAsRanges) {
   Numbers n;
   for (const int seq : {0, 1, 4, 5, 9}) EXPECT_TRUE(n.add(seq));

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "common/messages.h"
+#include "common/seal.h"
 #include "recorder/message_decode.h"
 
 namespace crosswalk::recording {
@@ -39,6 +40,7 @@ class Writer {
     raw.channel = channel_name(message.h.run_id, kKindOf<M>, sender);
     raw.data.resize(static_cast<std::size_t>(message.getEncodedSize()));
     message.encode(raw.data.data(), 0, static_cast<int>(raw.data.size()));
+    seal(message.h.run_id, raw.data);
     out.push_back(std::move(raw));
   }
   template <class M>

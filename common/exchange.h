@@ -20,7 +20,7 @@ namespace crosswalk {
 /// How the coupler wants a window done.
 enum class Phase : int {
   Advance = 0,   ///< once and for good
-  Evaluate = 1,  ///< save at the first iteration, restore at each further one, then advance
+  Evaluate = 1,  ///< save at iteration 0, restore at each further one, then advance
   Accept = 2     ///< keep the state of the last evaluation; nothing is advanced
 };
 enum class Status : int { Ok = 0, Warning = 1, Failed = 2 };
@@ -30,8 +30,16 @@ struct WindowId {
   std::int64_t window_ns = 0;  ///< length H
   int iteration = 0;
   Phase phase = Phase::Advance;
-  double begin_s() const { return 1e-9 * static_cast<double>(window * window_ns); }
-  double length_s() const { return 1e-9 * static_cast<double>(window_ns); }
+  // The implicit scheme does a window in parts when it does not converge on the whole.
+  std::int64_t offset_ns = 0;  ///< where the part begins in the window
+  std::int64_t part_ns = 0;    ///< its length; 0: the whole window
+
+  std::int64_t begin_ns() const { return window * window_ns + offset_ns; }
+  std::int64_t length_ns() const { return part_ns > 0 ? part_ns : window_ns; }
+  std::int64_t end_ns() const { return begin_ns() + length_ns(); }
+  bool ends_window() const { return offset_ns + length_ns() == window_ns; }
+  double begin_s() const { return 1e-9 * static_cast<double>(begin_ns()); }
+  double length_s() const { return 1e-9 * static_cast<double>(length_ns()); }
 };
 
 struct BodyMotion {

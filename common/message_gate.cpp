@@ -52,17 +52,21 @@ class Gate {
   std::optional<std::string> problem_;
 };
 
-void check_window(Gate& gate, std::int64_t window, std::int64_t window_ns, int phase) {
-  gate.number("window", static_cast<double>(window), 1e12);
-  gate.number("window_ns", static_cast<double>(window_ns), 1e6);
-  gate.count("phase", phase, 2);
+template <class M>
+void check_window(Gate& gate, const M& m) {
+  constexpr int kMaxNs = 1'000'000;
+  gate.number("window", static_cast<double>(m.window), 1e12);
+  gate.number("window_ns", static_cast<double>(m.window_ns), kMaxNs);
+  gate.count("offset_ns", m.offset_ns, kMaxNs);
+  gate.count("part_ns", m.part_ns, kMaxNs);
+  gate.count("phase", m.phase, 2);
 }
 
 }  // namespace
 
 std::optional<std::string> problem_in(const msg::step_to_mb& m) {
   Gate gate;
-  check_window(gate, m.window, m.window_ns, m.phase);
+  check_window(gate, m);
   gate.count("n_bodies", m.n_bodies, kMaxInterfaceBodies);
   for (int k = 0; k < std::min(m.n_bodies, kMaxInterfaceBodies); ++k) {
     gate.array("carry", k, m.carry[k], Gate::kImpulse);
@@ -88,7 +92,7 @@ std::optional<std::string> problem_in(const msg::mb_done& m) {
 
 std::optional<std::string> problem_in(const msg::step_to_fe& m) {
   Gate gate;
-  check_window(gate, m.window, m.window_ns, m.phase);
+  check_window(gate, m);
   gate.count("n_bodies", m.n_bodies, kMaxInterfaceBodies);
   for (int k = 0; k < std::min(m.n_bodies, kMaxInterfaceBodies); ++k) {
     gate.array("position", k, m.body[k].position, Gate::kPosition);

@@ -88,12 +88,14 @@ template <class M>
 void put_id(M& m, const WindowId& id) {
   m.window = id.window;
   m.window_ns = id.window_ns;
+  m.offset_ns = static_cast<std::int32_t>(id.offset_ns);
+  m.part_ns = static_cast<std::int32_t>(id.part_ns);
   m.iteration = id.iteration;
   m.phase = static_cast<int>(id.phase);
 }
 template <class M>
 WindowId get_id(const M& m) {
-  return {m.window, m.window_ns, m.iteration, static_cast<Phase>(m.phase)};
+  return {m.window, m.window_ns, m.iteration, static_cast<Phase>(m.phase), m.offset_ns, m.part_ns};
 }
 int body_count(std::size_t n) {
   CW_ASSERT(n <= static_cast<std::size_t>(kMaxInterfaceBodies));
@@ -126,7 +128,7 @@ MbGrant from_message(const msg::step_to_mb& m) {
 msg::mb_done to_message(const WindowId& id, const MbReply& reply) {
   auto m = blank<msg::mb_done>();
   m.window = id.window;
-  m.t_ns = (id.window + 1) * id.window_ns;
+  m.t_ns = id.end_ns();
   m.iteration = id.iteration;
   m.status = static_cast<int>(reply.status);
   m.n_bodies = body_count(reply.bodies.size());
@@ -196,7 +198,7 @@ FeGrant from_message(const msg::step_to_fe& m) {
 msg::fe_done to_message(const WindowId& id, const FeReply& reply) {
   auto m = blank<msg::fe_done>();
   m.window = id.window;
-  m.t_ns = (id.window + 1) * id.window_ns;
+  m.t_ns = id.end_ns();
   m.iteration = id.iteration;
   m.status = static_cast<int>(reply.status);
   m.n_bodies = body_count(reply.loads.size());

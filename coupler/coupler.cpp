@@ -91,6 +91,11 @@ void Coupler::note_events(const WindowResult& result) {
     tell(EventLevel::Info, fmt::format("the head touches the car at t = {:.3f} ms",
                                        1e-6 * static_cast<double>(t_ns)));
   }
+  if (result.parts > 1 && ++seen_.in_parts == 1) {
+    tell(EventLevel::Warning, fmt::format("the implicit iteration did not converge on window {}; "
+                                          "it was done in {} parts",
+                                          result.id.window, result.parts));
+  }
   if (!result.converged && ++seen_.not_converged == 1) {
     tell(EventLevel::Warning,
          fmt::format("the implicit iteration of window {} stopped at a residual of {:.1e}",

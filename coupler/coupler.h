@@ -68,7 +68,7 @@ class Coupler {
   struct Seen {
     std::int64_t contact_ns = -1;  ///< end of the window of first contact
     bool head_contact = false;
-    int not_converged = 0;
+    int not_converged = 0, in_parts = 0;
   } seen_;
 };
 

@@ -1,5 +1,7 @@
 #include "coupler/scheme.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "common/error.h"
@@ -33,8 +35,8 @@ std::vector<BodyDrive> drives_between(const std::vector<BodyMotion>& begin,
   return drives;
 }
 
-// Books the window's impulses: what mb did not yet get becomes the carry, the mean wrench the next
-// bias.
+// Books the impulses of a window or part: what mb did not yet get becomes the carry, the mean
+// wrench the next bias.
 void hand_on(CouplingState& state, const WindowResult& result, const std::vector<Vec6>& bias_used) {
   const double H = result.id.length_s();
   state.bias_before = bias_used;
@@ -45,7 +47,6 @@ void hand_on(CouplingState& state, const WindowResult& result, const std::vector
   }
   state.bias = as_on_wire(MbGrant{.id = {}, .carry = {}, .bias = state.bias}).bias;
   state.motion = result.mb.bodies;
-  ++state.window;
 }
 
 void note_mobility(const SchemeSettings& settings, CouplingState& state, const MbReply& mb) {
@@ -85,6 +86,7 @@ WindowResult advance_mic(const SchemeSettings& settings, CouplingState& state,
                   .mobility = state.mobility});
   result.fe = fe.advance(grant);
   hand_on(state, result, state.bias);
+  ++state.window;
   return result;
 }
 
@@ -101,13 +103,15 @@ WindowResult advance_staggered(CouplingState& state, std::int64_t window_ns, MbL
                              .mobility = {}}));
   hand_on(state, result, state.bias);
   state.carry = none;
+  ++state.window;
   return result;
 }
 
-// Iterates the window from saved states until the wrench mb assumed is the one fe returns.
-WindowResult advance_implicit(const SchemeSettings& settings, CouplingState& state,
-                              std::int64_t window_ns, MbLink& mb, FeLink& fe) {
-  WindowResult result{.id = {state.window, window_ns, 0, Phase::Evaluate}, .mb = {}, .fe = {}};
+// One part of a window by the implicit scheme: from states saved at its begin, until the wrench mb
+// assumed is the one fe returns. Returns the residual; when it is not accepted the nodes stay where
+// the last evaluation led, and go back to the begin with the next.
+double iterate_part(const SchemeSettings& settings, CouplingState& state, WindowResult& result,
+                    MbLink& mb, FeLink& fe) {
   const auto n = static_cast<int>(state.motion.size());
   const double H = result.id.length_s();
   const std::vector<Vec6> none = zeros(state.motion.size());
@@ -135,23 +139,47 @@ WindowResult advance_implicit(const SchemeSettings& settings, CouplingState& sta
   const FixedPoint solved =
       solve_fixed_point(mean_wrench, 2 * last - before, wrench_scale(last),
                         {settings.tolerance, settings.max_iterations, settings.anderson_depth});
-  result.iterations = result.id.iteration;
-  result.residual = solved.residual;
-  result.converged = solved.residual <= settings.tolerance;
-  if (!(solved.residual <= settings.accepted_residual)) {
-    throw NumericalError(
-        result.id.begin_s(),
-        fmt::format("the implicit iteration of window {} is at a relative residual of "
-                    "{:.1e} after {} passes (accepted: {:.0e}); use a shorter window_us "
-                    "or scheme = \"mic\"",
-                    state.window, solved.residual, result.iterations, settings.accepted_residual));
-  }
-  result.id.phase = Phase::Accept;
-  mb.advance({.id = result.id, .carry = none, .bias = none});
-  FeGrant accept{
-      .id = result.id, .drives = std::vector<BodyDrive>(state.motion.size()), .mobility = {}};
-  fe.advance(accept);
+  result.iterations += solved.evaluations;
+  if (!(solved.residual <= settings.accepted_residual)) return solved.residual;
+  WindowId accepted = result.id;
+  accepted.phase = Phase::Accept;
+  mb.advance({.id = accepted, .carry = none, .bias = none});
+  fe.advance(FeGrant{
+      .id = accepted, .drives = std::vector<BodyDrive>(state.motion.size()), .mobility = {}});
   hand_on(state, result, assumed);
+  return solved.residual;
+}
+
+// A window as a whole or, where that does not converge, in parts of half the length, and half
+// again.
+WindowResult advance_implicit(const SchemeSettings& settings, CouplingState& state,
+                              std::int64_t window_ns, MbLink& mb, FeLink& fe) {
+  WindowResult result{.id = {state.window, window_ns, 0, Phase::Evaluate}, .mb = {}, .fe = {}};
+  result.iterations = result.parts = 0;
+  const std::int64_t shortest = std::max<std::int64_t>(1, window_ns / settings.most_parts);
+  for (std::int64_t length = window_ns; result.id.offset_ns < window_ns;) {
+    result.id.part_ns = std::min(length, window_ns - result.id.offset_ns);
+    const double residual = iterate_part(settings, state, result, mb, fe);
+    if (residual <= settings.accepted_residual) {
+      result.residual = std::max(result.residual, residual);
+      result.id.offset_ns += result.id.part_ns;
+      result.id.iteration = 0;
+      ++result.parts;
+    } else if (length / 2 < shortest) {
+      throw NumericalError(
+          result.id.begin_s(),
+          fmt::format("the implicit iteration of window {} is at a relative residual of {:.1e} "
+                      "after {} passes, even in parts of {:g} us (accepted: {:.0e}); use a "
+                      "shorter window_us or scheme = \"mic\"",
+                      state.window, residual, result.iterations,
+                      1e-3 * static_cast<double>(result.id.part_ns), settings.accepted_residual));
+    } else {
+      length /= 2;
+    }
+  }
+  result.converged = result.residual <= settings.tolerance;
+  result.id = {state.window, window_ns};
+  ++state.window;
   return result;
 }
 

@@ -25,6 +25,7 @@ struct SchemeSettings {
   double accepted_residual = 1e-3;  ///< still accepted after max_iterations, and counted
   int max_iterations = 20;
   int anderson_depth = 5;
+  int most_parts = 8;  ///< of a window that does not converge as a whole
 };
 
 /// What one window leaves to the next. A value: a checkpoint is a copy.
@@ -46,6 +47,7 @@ struct WindowResult {
   int iterations = 1;   ///< passes of fe
   double residual = 0;  ///< of the implicit iteration
   bool converged = true;
+  int parts = 1;  ///< in which the window was done
 };
 
 /// Bodies at t = 0, no load, mobility to be measured.

@@ -173,8 +173,10 @@ FeReply FeNode::advance(const FeGrant& grant, RecordSink& sink) {
 }
 
 void FeNode::publish(const WindowId& id, RecordSink& sink) {
-  const std::int64_t end_ns = (id.window + 1) * id.window_ns;
-  const HeadSample head = head_.sample(run_.state, end_ns, run_.head_twist, id.length_s());
+  if (!id.ends_window()) return;
+  const std::int64_t end_ns = id.end_ns();
+  const HeadSample head =
+      head_.sample(run_.state, end_ns, run_.head_twist, 1e-9 * static_cast<double>(id.window_ns));
   run_.head_twist = head.V_WH;
   sink.head(head);
   const auto is_due = [end_ns](std::int64_t& next, double interval) {

@@ -132,7 +132,7 @@ MbReply MbNode::advance(const MbGrant& grant, RecordSink& sink) {
 void MbNode::run_substeps(const MbGrant& grant, Records& records) {
   const int n = substep_count(grant.id.length_s(), model_->config.multibody.substep);
   const double dt = grant.id.length_s() / n;
-  const std::int64_t begin_ns = grant.id.window * grant.id.window_ns;
+  const std::int64_t begin_ns = grant.id.begin_ns(), length_ns = grant.id.length_ns();
   if (state_.substeps == 0) {
     records.bodies.push_back({begin_ns, poses()});
     records.forces.push_back({begin_ns, forces()});
@@ -142,8 +142,8 @@ void MbNode::run_substeps(const MbGrant& grant, Records& records) {
     const bool was_touched = state_.first_contact_time >= 0;
     dynamics_->substep(state_, dt, external_loads(grant, dt, k == 0));
     ++progress_;
-    const std::int64_t before = begin_ns + grant.id.window_ns * k / n;
-    const std::int64_t now = begin_ns + grant.id.window_ns * (k + 1) / n;
+    const std::int64_t before = begin_ns + length_ns * k / n;
+    const std::int64_t now = begin_ns + length_ns * (k + 1) / n;
     if (now / kForcePeriod > before / kForcePeriod) records.forces.push_back({now, forces()});
     if (now / kBodyStatePeriod > before / kBodyStatePeriod) {
       records.bodies.push_back({now, poses()});
@@ -161,9 +161,9 @@ void MbNode::run_substeps(const MbGrant& grant, Records& records) {
                                                   "smaller multibody.substep",
                                                   1e3 * drift));
   }
-  if (model_->head < 0) return;
+  if (model_->head < 0 || !grant.id.ends_window()) return;
   HeadSample head;
-  head.t_ns = begin_ns + grant.id.window_ns;
+  head.t_ns = grant.id.end_ns();
   head.X_WH = {world_->pose(model_->head).q, dynamics_->kinematics().p[model_->head]};
   head.V_WH = dynamics_->kinematics().V[model_->head];
   head.acceleration = (head.V_WH.v - head_before.v) / grant.id.length_s();

@@ -109,8 +109,7 @@ MbReply PlayedMotion::advance(const MbGrant& grant, RecordSink& sink) {
     if (grant.want_mobility) reply_.mobility = Eigen::MatrixXd::Zero(6 * attached, 6 * attached);
     ++progress_;
   }
-  const std::int64_t begin_ns = grant.id.window * grant.id.window_ns;
-  const std::int64_t end_ns = begin_ns + grant.id.window_ns;
+  const std::int64_t begin_ns = grant.id.begin_ns(), end_ns = grant.id.end_ns();
   if (grant.id.phase != Phase::Evaluate) {
     if (begin_ns == 0) sink.body_states(0, {table_.head(0).X_WB, table_.car(0).X_WB});
     if (end_ns / kBodyStatePeriod > begin_ns / kBodyStatePeriod)

@@ -64,7 +64,7 @@ std::vector<Inertia> rebase_bodies(const Boundary& boundary,
 }
 
 WindowLoads advance_window(const Model& model, const Boundary& boundary, const FeGrant& grant,
-                           State& state, Scratch& scratch) {
+                           State& state, Scratch& scratch, ExplosionWatch* watch) {
   const int count = static_cast<int>(boundary.bodies.size()), attached = boundary.attached;
   CW_ASSERT(static_cast<int>(grant.drives.size()) == count);
   const bool yields = grant.mobility.size() > 0;  // else the blocks follow the drives exactly
@@ -81,7 +81,10 @@ WindowLoads advance_window(const Model& model, const Boundary& boundary, const F
   Eigen::VectorXd excess(6 * attached);
   const double gap_time = std::max(kGapTime, window);
   for (int j = 0; j < substeps; ++j) {
-    state.stable_step = compute_forces(model, state, scratch).stable_step;
+    if (watch) watch->look(model, state, scratch);
+    const StepReport report = compute_forces(model, state, scratch);
+    state.stable_step = report.stable_step;
+    if (watch) watch->require_step(model, state, scratch, report);
     const double kick = kick_length(state, dt);
     for (int k = 0; k < count; ++k) {
       const Vec6 F = stack(scratch.body_wrench[boundary.bodies[k]]);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/exchange.h"
+#include "fe_node/explosion.h"
 #include "fe_node/solver.h"
 
 namespace crosswalk::fe {
@@ -40,8 +41,8 @@ struct WindowLoads {
 };
 
 /// Advances the model by one window in equal substeps of at most settings.step_scale times the
-/// stable step. Throws NumericalError.
+/// stable step. Throws NumericalError, also when `watch`, if there is one, sees the run explode.
 WindowLoads advance_window(const Model& model, const Boundary& boundary, const FeGrant& grant,
-                           State& state, Scratch& scratch);
+                           State& state, Scratch& scratch, ExplosionWatch* watch = nullptr);
 
 }  // namespace crosswalk::fe

@@ -52,12 +52,13 @@ std::string largest_contact(const Model& model, const Scratch& scratch) {
 
 }  // namespace
 
-void require_step(const Model& model, const State& state, const Scratch& scratch,
-                  const StepReport& report, double first_step) {
-  if (report.stable_step > kLeastStepShare * first_step) return;
+void ExplosionWatch::require_step(const Model& model, const State& state, const Scratch& scratch,
+                                  const StepReport& report) {
+  if (first_step_ == 0) first_step_ = report.stable_step;
+  if (std::isinf(report.stable_step) || report.stable_step > kLeastStepShare * first_step_) return;
   throw NumericalError(
       state.time,
-      fmt::format("the stable step has fallen from {:.3g} to {:.3g} us, for {}", 1e6 * first_step,
+      fmt::format("the stable step has fallen from {:.3g} to {:.3g} us, for {}", 1e6 * first_step_,
                   1e6 * report.stable_step,
                   report.critical_element >= 0
                       ? describe_element(model, report.critical_block, report.critical_element)
@@ -66,7 +67,9 @@ void require_step(const Model& model, const State& state, const Scratch& scratch
 
 void ExplosionWatch::look(const Model& model, const State& state, const Scratch& scratch) {
   const double error = state.energies.balance_error();
-  steps_ = error <= kExplosionShare ? 0 : steps_ + 1;
+  const bool is_sound = error <= kExplosionShare ||
+                        state.energies.total() - state.energies.supplied() <= floor_;
+  steps_ = is_sound ? 0 : steps_ + 1;
   if (steps_ < kExplosionSteps && std::isfinite(state.energies.total())) return;
   const int node = fastest_node(model, state);
   throw NumericalError(

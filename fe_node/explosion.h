@@ -17,22 +17,31 @@ inline constexpr double kExplosionShare = 0.2;
 /// a step's work where a load sets in on a model at rest.
 inline constexpr int kExplosionSteps = 100;
 
-class ExplosionWatch {
- public:
-  /// Once a step. Throws NumericalError with the time, the fastest node, an element and part it
-  /// belongs to, and what the contacts hold, when energy has come from nowhere or is not a number.
-  void look(const Model& model, const State& state, const Scratch& scratch);
-
- private:
-  int steps_ = 0;
-};
-
 /// Share of the first stable step below which a run will never end: an element that is crushed flat
 /// needs ever smaller steps and is never quite inverted [E].
 inline constexpr double kLeastStepShare = 1e-4;
 
-/// Throws NumericalError with the element and part, or the contact, that asks for less.
-void require_step(const Model& model, const State& state, const Scratch& scratch,
-                  const StepReport& report, double first_step);
+/// Energy from nowhere that is let pass in a coupled run, J, a ten thousandth of what an impact
+/// brings: its first windows hold so little that one step's late booking is a large share [E].
+inline constexpr double kExplosionFloor = 0.1;
+
+class ExplosionWatch {
+ public:
+  /// `floor`: energy from nowhere that is let pass, J.
+  explicit ExplosionWatch(double floor = 0) : floor_(floor) {}
+
+  /// Once a step. Throws NumericalError with the time, the fastest node, an element and part it
+  /// belongs to, and what the contacts hold, when energy has come from nowhere or is not a number.
+  void look(const Model& model, const State& state, const Scratch& scratch);
+  /// After compute_forces(). Throws NumericalError with the element and part, or the contact, that
+  /// asks for a step no run would ever end with.
+  void require_step(const Model& model, const State& state, const Scratch& scratch,
+                    const StepReport& report);
+
+ private:
+  double floor_ = 0;  ///< J
+  int steps_ = 0;
+  double first_step_ = 0;  ///< s
+};
 
 }  // namespace crosswalk::fe

@@ -17,6 +17,8 @@
 namespace crosswalk::fe {
 namespace {
 
+constexpr std::int64_t kSoundInterval = 1'000'000;  ///< ns between copies of a sound state
+
 ContactSurface outer_surface(const BuiltModel& built, const std::string& parts) {
   std::vector<ContactPart> of;
   for (int p : built.part_sets[require_part_set(built, parts)].second) of.push_back({p, 0, 0, {}});
@@ -131,7 +133,8 @@ FeReply FeNode::run_window(const FeGrant& grant) {
     log_info("the head is near the windshield: it takes part from {:.2f} ms on",
              1e3 * run_.state.time);
   }
-  const WindowLoads window = advance_window(model, node_.boundary, grant, run_.state, *scratch_);
+  const WindowLoads window =
+      advance_window(model, node_.boundary, grant, run_.state, *scratch_, &watch_);
   progress_ += window.substeps;
   FeReply reply;
   reply.substeps = window.substeps;
@@ -164,7 +167,7 @@ FeReply FeNode::advance(const FeGrant& grant, RecordSink& sink) {
     try {
       last_reply_ = run_window(grant);
     } catch (const NumericalError&) {
-      write_last_sound_frame();
+      if (!folder_.empty()) sound_.write(node_.built.model, run_.state, folder_ / "fields");
       throw;
     }
   }
@@ -179,6 +182,10 @@ void FeNode::publish(const WindowId& id, RecordSink& sink) {
       head_.sample(run_.state, end_ns, run_.head_twist, 1e-9 * static_cast<double>(id.window_ns));
   run_.head_twist = head.V_WH;
   sink.head(head);
+  if (!folder_.empty() && end_ns >= next_sound_ns_) {
+    sound_.keep(run_.state);
+    next_sound_ns_ = end_ns + kSoundInterval;
+  }
   const auto is_due = [end_ns](std::int64_t& next, double interval) {
     if (interval <= 0 || end_ns < next) return false;
     next = end_ns + std::llround(interval * 1e9);
@@ -193,17 +200,6 @@ void FeNode::publish(const WindowId& id, RecordSink& sink) {
     if (is_asleep(node_.built.model, run_.state)) carry_sleeper(node_.built.model, run_.state);
     fields_->write(run_.state);
   }
-}
-
-/// An element is inverted at the present positions: one step back none was.
-void FeNode::write_last_sound_frame() {
-  if (folder_.empty()) return;
-  State sound = run_.state;
-  for (NodeRecord& node : sound.nodes)
-    node.set_position(node.position() - sound.last_dt * node.velocity());
-  sound.time -= sound.last_dt;
-  FieldWriter writer(node_.built.model, folder_ / "fields" / "last_sound");
-  log_error("last sound frame: fields/last_sound/{}", writer.write(sound).string());
 }
 
 std::string FeNode::description() const {

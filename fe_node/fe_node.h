@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "fe_node/last_sound.h"
 #include "fe_node/node_model.h"
 #include "fe_node/output/head_motion.h"
 #include "fe_node/output/tissue_metrics.h"
@@ -43,7 +44,6 @@ class FeNode : public FeParticipant {
   void compare_with_multibody_head() const;
   FeReply run_window(const FeGrant& grant);
   void publish(const WindowId& id, RecordSink& sink);
-  void write_last_sound_frame();
 
   FeConfig config_;
   int threads_;
@@ -52,6 +52,9 @@ class FeNode : public FeParticipant {
   HeadMotion head_;
   TissueMetrics tissue_;
   std::optional<Scratch> scratch_;
+  ExplosionWatch watch_{kExplosionFloor};
+  LastSound sound_;
+  std::int64_t next_sound_ns_ = 0;
   std::unique_ptr<FieldWriter> fields_;
   Run run_, saved_;
   FeReply last_reply_;

@@ -11,6 +11,7 @@
 #include "common/log.h"
 #include "fe_node/deck/runnable.h"
 #include "fe_node/explosion.h"
+#include "fe_node/last_sound.h"
 #include "fe_node/model_builder/model_builder.h"
 #include "fe_node/output/field_writer.h"
 #include "fe_node/output/history.h"
@@ -23,7 +24,6 @@ namespace {
 constexpr int kDefaultFrames = 20;     ///< field files of a deck that asks for none
 constexpr int kDefaultHistory = 1000;  ///< history lines likewise
 constexpr int kProgressLines = 10;
-constexpr double kSoundBalance = 0.05;  ///< energy balance of a frame worth looking at
 
 class EnergyHistory {
  public:
@@ -84,22 +84,6 @@ void describe(const BuiltModel& built, const SolveRequest& request) {
   for (const std::string& note : built.notes) log_warning("{}", note);
 }
 
-/// One step before the state that failed, unless its energies were no longer sound: then `kept`.
-void write_last_sound_frame(const Model& model, const State& failed, const State& kept,
-                            const std::filesystem::path& folder) {
-  const bool is_kept = !(std::abs(failed.energies.balance_error()) < kSoundBalance) ||
-                       !std::isfinite(failed.energies.total());
-  State sound = is_kept ? kept : failed;
-  if (!is_kept) {
-    for (NodeRecord& node : sound.nodes)
-      node.set_position(node.position() - sound.last_dt * node.velocity());
-    sound.time -= sound.last_dt;
-  }
-  FieldWriter writer(model, folder / "last_sound");
-  log_error("last sound frame, t = {:.6g} ms: {}", 1e3 * sound.time,
-            (folder / "last_sound" / writer.write(sound)).string());
-}
-
 }  // namespace
 
 std::vector<std::string> model_summary(const Model& model) {
@@ -147,8 +131,8 @@ SolveResult solve_deck(const SolveRequest& request) {
                                                   : end / kDefaultHistory,
                      state.time);
   Clock progress_clock(end / kProgressLines, state.time);
-  State sound = state;
-  double first_step = 0;
+  LastSound sound;
+  sound.keep(state);
   ExplosionWatch watch;
   while (state.time < end * (1 - 1e-12) && !interrupt_flag()) {
     set_log_time(state.time);
@@ -157,10 +141,9 @@ SolveResult solve_deck(const SolveRequest& request) {
     try {
       watch.look(model, state, scratch);
       report = compute_forces(model, state, scratch);
-      if (first_step == 0) first_step = report.stable_step;
-      require_step(model, state, scratch, report, first_step);
+      watch.require_step(model, state, scratch, report);
     } catch (const NumericalError&) {
-      write_last_sound_frame(model, state, sound, request.folder);
+      sound.write(model, state, request.folder);
       throw;
     }
     // No step is cut short at the end: a run that goes on from its restart file then takes the same
@@ -173,7 +156,7 @@ SolveResult solve_deck(const SolveRequest& request) {
     move(model, state, scratch, dt);
     if (history_clock.strikes(state.time)) {
       history.add(state);
-      if (std::abs(state.energies.balance_error()) < kSoundBalance) sound = state;
+      sound.keep(state);
     }
     if (progress_clock.strikes(state.time))
       log_info("{:3.0f} %, step {:.4g} us, energy balance {:+.3f} %", 100 * state.time / end,

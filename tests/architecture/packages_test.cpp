@@ -26,6 +26,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"Threads", "g++"},
     {"GTest", "libgtest-dev"},
     {"benchmark", "libbenchmark-dev"},
+    {"Python3", "python3"},
     {"nanoflann", "libnanoflann-dev"},
     {"ZLIB", "zlib1g-dev"},
     {"ccd", "libccd-dev"},

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/protocol.h"
+
 namespace crosswalk {
 
 namespace {
@@ -38,7 +40,9 @@ void seal(std::int64_t run, std::vector<std::byte>& message) {
 
 std::optional<std::span<const std::byte>> unsealed(std::int64_t run,
                                                    std::span<const std::byte> message) {
-  if (message.size() < kSealBytes) return std::nullopt;
+  // LCM tells a size of nearly 2^32 for a datagram whose channel name has no end.
+  if (message.size() < kSealBytes || message.size() > kMaxMessageBytes + kSealBytes)
+    return std::nullopt;
   const auto payload = message.first(message.size() - kSealBytes);
   if (big_endian(message.last(kSealBytes)) != digest(run, payload)) return std::nullopt;
   return payload;

@@ -60,21 +60,25 @@ std::string page_data_of(const fs::path& report) {
 TEST_F(RealRun, LogOfTheStockLoggerAloneGivesTheSameReport) {
   const std::string url = "udpm://239.255.76.67:19996?ttl=0&recv_buf_size=4194304";
   const fs::path log = folder() / "stock.lcmlog";
-  Launched logger("/usr/bin/lcm-logger", {"--quiet", "--lcm-url=" + url, log.string()},
-                  folder() / "logger.txt");
-  ASSERT_TRUE(wait_for(kLong, [&] { return fs::exists(log); }));
-  complete("a", {"--mode", "multibody", "--until-ms", "3", "--lcm-url", url});
-  logger.send(SIGINT);
-  ASSERT_TRUE(logger.wait(kLong)) << logger.output();
-  ASSERT_GT(fs::file_size(log), 100000u) << logger.output();
-
   const auto succeeds = [&](std::vector<std::string> arguments, const std::string& name) {
     Launched launched = call("recorder", std::move(arguments), name);
     const auto status = launched.wait(kLong);
     return status && status->is_success();
   };
   const fs::path ours = folder() / "ours.html", stock = folder() / "stock.html";
-  ASSERT_TRUE(succeeds({"analyze", log.string(), "--out", out("b").string()}, "analyze"));
+  // The stock logger asks nobody for what it missed, as on a busy machine it may.
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    for (const fs::path& old : {out("a"), out("b"), log}) fs::remove_all(old);
+    Launched logger("/usr/bin/lcm-logger", {"--quiet", "--lcm-url=" + url, log.string()},
+                    folder() / "logger.txt");
+    ASSERT_TRUE(wait_for(kLong, [&] { return fs::exists(log); }));
+    complete("a", {"--mode", "multibody", "--until-ms", "3", "--lcm-url", url});
+    logger.send(SIGINT);
+    ASSERT_TRUE(logger.wait(kLong)) << logger.output();
+    ASSERT_GT(fs::file_size(log), 100000u) << logger.output();
+    ASSERT_TRUE(succeeds({"analyze", log.string(), "--out", out("b").string()}, "analyze"));
+    if (text_of(out("b") / "summary.json").find("\"lost\": 0\n") != std::string::npos) break;
+  }
   EXPECT_TRUE(channels_of(out("a")) == channels_of(out("b")));
   ASSERT_TRUE(succeeds({"report", out("a").string(), "--out", ours.string()}, "ours"));
   ASSERT_TRUE(succeeds({"report", log.string(), "--out", stock.string()}, "stock"));

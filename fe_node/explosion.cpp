@@ -67,8 +67,8 @@ void ExplosionWatch::require_step(const Model& model, const State& state, const 
 
 void ExplosionWatch::look(const Model& model, const State& state, const Scratch& scratch) {
   const double error = state.energies.balance_error();
-  const bool is_sound = error <= kExplosionShare ||
-                        state.energies.total() - state.energies.supplied() <= floor_;
+  const bool is_sound =
+      error <= kExplosionShare || state.energies.total() - state.energies.supplied() <= floor_;
   steps_ = is_sound ? 0 : steps_ + 1;
   if (steps_ < kExplosionSteps && std::isfinite(state.energies.total())) return;
   const int node = fastest_node(model, state);

@@ -195,26 +195,6 @@ TEST_F(FeNodeTest, AnInvertedElementLeavesTheLastSoundFrame) {
   EXPECT_TRUE(fs::exists(folder_ / "run/fields/last_sound/frame_0000.vtu"));
 }
 
-// The neck is so stiff that ten times its own step is beyond the stable step of the skull on it.
-TEST_F(FeNodeTest, ARunThatMakesEnergyEndsWithTheLastSoundFrame) {
-  std::string stiff = column();
-  stiff.replace(stiff.find("2e-3,0.3"), 4, "200.");
-  write(stiff);
-  FeConfig unstable = config();
-  unstable.step_scale = 10;
-  const auto node = placed(unstable, folder_ / "run");
-  std::string what;
-  try {
-    for (int w = 0; w < 500; ++w) node->advance(grant(w, w == 0 ? 0.0 : 1.0), records_);
-  } catch (const NumericalError& error) {
-    what = error.what();
-    EXPECT_GT(error.time_s(), 0);
-  }
-  EXPECT_THAT(what, testing::HasSubstr("makes energy"));
-  EXPECT_THAT(what, testing::HasSubstr("part"));
-  EXPECT_TRUE(fs::exists(folder_ / "run/fields/last_sound/frame_0000.vtu"));
-}
-
 TEST_F(FeNodeTest, NamesWhatADeckLacks) {
   const auto message = [&](const FeConfig& lacking) -> std::string {
     try {

@@ -46,6 +46,9 @@ void EnergyAudit::book_interface(const WindowResult& result, const CouplingState
     books_.gap_rotation[k] = static_cast<float>(load.gap_rotation.norm());
     books_.velocity_mismatch[k] =
         static_cast<float>((after.motion[k].V_WB.v - load.twist_end.v).norm());
+    const Vec6 owed = after.carry[k] / result.id.length_s();
+    books_.owed_force[k] = static_cast<float>(owed.head<3>().norm());
+    books_.owed_moment[k] = static_cast<float>(owed.tail<3>().norm());
     books_.largest_gap_m = std::max(books_.largest_gap_m, load.gap_position.norm());
     books_.largest_gap_rad = std::max(books_.largest_gap_rad, load.gap_rotation.norm());
   }
@@ -86,6 +89,8 @@ msg::coupling_audit EnergyAudit::message() const {
   m.balance_error = books_.total - books_.external - books_.start;
   std::memcpy(m.gap_position, books_.gap_position, sizeof books_.gap_position);
   std::memcpy(m.gap_rotation, books_.gap_rotation, sizeof books_.gap_rotation);
+  std::memcpy(m.owed_force, books_.owed_force, sizeof books_.owed_force);
+  std::memcpy(m.owed_moment, books_.owed_moment, sizeof books_.owed_moment);
   std::memcpy(m.velocity_mismatch, books_.velocity_mismatch, sizeof books_.velocity_mismatch);
   return m;
 }

@@ -45,6 +45,7 @@ class EnergyAudit {
     double total = 0, external = 0, start = 0, peak = 0;
     double largest_gap_m = 0, largest_gap_rad = 0;
     float gap_position[8] = {}, gap_rotation[8] = {}, velocity_mismatch[8] = {};
+    float owed_force[8] = {}, owed_moment[8] = {};
   };
   const Books& books() const { return books_; }
   void continue_from(const Books& books) { books_ = books; }

@@ -258,6 +258,34 @@ ReportTable path_table(const std::vector<ComparedRun>& runs) {
   return table;
 }
 
+/// One model coupled in two ways: what the coupling alone does to the result.
+ReportTable coupling_table(const std::vector<ComparedRun>& runs) {
+  ReportTable table{
+      "Error bar of the coupling",
+      "One scenario with two schemes or windows: largest distance of the head's centre "
+      "of mass over the whole run, and change of its peak acceleration.",
+      {"runs", "head path [mm]", "at [ms]", "peak acceleration [%]"},
+      {}};
+  const auto label = [](const ComparedRun& run) {
+    const Manifest& m = run.analysis.summary.manifest;
+    return fmt::format("{} {:g} us", m.scheme_name(), 1e-3 * static_cast<double>(m.window_ns));
+  };
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const Summary &a = runs[k].analysis.summary, &b = runs[i].analysis.summary;
+      if (scenario_of(runs[k]) != scenario_of(runs[i]) || !a.fe || !b.fe) continue;
+      if (label(runs[k]) == label(runs[i])) continue;
+      const auto gap = path_gap(runs[k].analysis, runs[i].analysis, PathSpan::Whole);
+      const auto peak = summary_quantity(a, "peak_g"), other = summary_quantity(b, "peak_g");
+      if (!gap || !peak || !other || !(*peak > 0)) continue;
+      table.rows.push_back(
+          {fmt::format("{} {} against {}", scenario_of(runs[i]), label(runs[i]), label(runs[k])),
+           fmt::format("{:.3f}", gap->largest_mm), fmt::format("{:.1f}", 1e3 * gap->time),
+           fmt::format("{:.2f}", 100 * std::abs(*other / *peak - 1))});
+    }
+  return table;
+}
+
 std::vector<ReportTable> tables_of(const std::vector<ComparedRun>& runs,
                                    const ComparisonSettings& settings) {
   std::vector<ReportTable> tables{result_table(runs)};
@@ -270,6 +298,8 @@ std::vector<ReportTable> tables_of(const std::vector<ComparedRun>& runs,
   }
   ReportTable paths = path_table(runs);
   if (!paths.rows.empty()) tables.push_back(std::move(paths));
+  ReportTable coupling = coupling_table(runs);
+  if (!coupling.rows.empty()) tables.push_back(std::move(coupling));
   const std::vector<ScoreColumn> mutual = mutual_columns(runs, settings);
   if (!mutual.empty()) {
     tables.push_back(score_table(mutual, settings, kMutualTitle,

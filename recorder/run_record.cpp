@@ -19,6 +19,11 @@ std::string Manifest::mode() const {
   return n_attached > 0 ? "prescribed" : "impact_only";
 }
 
+std::string Manifest::scheme_name() const {
+  constexpr const char* kNames[] = {"mic", "implicit", "staggered"};
+  return scheme >= 0 && scheme < 3 ? kNames[scheme] : "unknown";
+}
+
 bool Numbers::add(std::int64_t seq) {
   if (seq < complete_ || ahead_.count(seq) != 0) return false;
   if (seq != complete_) {
@@ -219,6 +224,8 @@ void RecordBuilder::Impl::take(const msg::coupling_audit& m) {
   a.gap_position = largest(m.gap_position, n);
   a.gap_rotation = largest(m.gap_rotation, n);
   a.velocity_mismatch = largest(m.velocity_mismatch, n);
+  a.owed_force = largest(m.owed_force, n);
+  a.owed_moment = largest(m.owed_moment, n);
   record.audit[m.window] = a;
 }
 

@@ -36,6 +36,8 @@ struct Manifest {
   bool has_head_alone() const { return has_fe && !bodies.empty() && bodies.front() == "head"; }
   /// coupled, multibody, prescribed or impact_only (common/scenario.h).
   std::string mode() const;
+  /// mic, implicit or staggered.
+  std::string scheme_name() const;
 };
 
 struct MbWindow {
@@ -62,9 +64,11 @@ struct AuditWindow {
   std::int64_t t_ns = 0;
   int iterations = 0, resends = 0, wall_us = 0;
   double residual = 0;
-  double work_mb = 0, work_fe = 0, exchanged = 0, drift = 0;         ///< J
-  double total_energy = 0, external_work = 0, balance_error = 0;     ///< J
-  double gap_position = 0, gap_rotation = 0, velocity_mismatch = 0;  ///< largest over the bodies
+  double work_mb = 0, work_fe = 0, exchanged = 0, drift = 0;      ///< J
+  double total_energy = 0, external_work = 0, balance_error = 0;  ///< J
+  // largest over the bodies
+  double gap_position = 0, gap_rotation = 0, velocity_mismatch = 0;  ///< m, rad, m/s
+  double owed_force = 0, owed_moment = 0;                            ///< N, N m
 };
 
 struct Event {

@@ -54,6 +54,8 @@ CouplingQuality quality_of(const RunRecord& record) {
     balance = std::max(balance, std::abs(a.balance_error));
     peak = std::max(peak, std::abs(a.total_energy));
     q.gap_mm = std::max(q.gap_mm, 1e3 * a.gap_position);
+    q.owed_force = std::max(q.owed_force, a.owed_force);
+    q.owed_moment = std::max(q.owed_moment, a.owed_moment);
     iterations += a.iterations;
   }
   const AuditWindow& last = record.audit.rbegin()->second;
@@ -99,6 +101,8 @@ Timing timing_of(const RunRecord& record) {
   for (const auto& [window, w] : record.mb) t.mb += 1e-6 * w.work_us;
   for (const auto& [window, w] : record.fe) t.fe += 1e-6 * w.work_us;
   for (const auto& [window, a] : record.audit) t.windows += 1e-6 * a.wall_us;
+  if (record.manifest && record.manifest->scheme_name() != "implicit")
+    t.exchange = std::max(0.0, t.windows - t.mb - t.fe);
   return t;
 }
 

@@ -28,6 +28,8 @@ struct CouplingQuality {
   double drift_percent = 0;         ///< largest |drift| of the energy exchanged at the end
   double balance_percent = 0;       ///< both sides, largest, of the peak total
   double gap_mm = 0;                ///< largest distance between a body and its block
+  double owed_force = 0;            ///< N, largest that a body had not yet got at a window's end
+  double owed_moment = 0;           ///< N m, likewise
   int resends = 0;
   double iterations = 0;  ///< mean per window
 };
@@ -41,6 +43,9 @@ struct RegionPeak {
 
 struct Timing {
   double wall = 0, windows = 0, mb = 0, fe = 0;  ///< s; differ from run to run
+  /// s of the windows in which neither solver computed; not told for `implicit`, of whose repeated
+  /// passes only the last reports its time.
+  std::optional<double> exchange;
 };
 
 struct BandVerdict {

@@ -15,18 +15,13 @@ ordered_json optional(const std::optional<double>& value, double factor = 1) {
   return value ? ordered_json(*value * factor) : ordered_json(nullptr);
 }
 
-const char* scheme_name(int scheme) {
-  constexpr const char* kNames[] = {"mic", "implicit", "staggered"};
-  return scheme >= 0 && scheme < 3 ? kNames[scheme] : "unknown";
-}
-
 ordered_json run_block(const Summary& s) {
   return {{"id", s.manifest.run_id},
           {"scenario", s.manifest.scenario},
           {"scenario_digest",
            fmt::format("{:016x}", static_cast<std::uint64_t>(s.manifest.scenario_digest))},
           {"mode", s.manifest.mode()},
-          {"scheme", s.manifest.has_fe ? ordered_json(scheme_name(s.manifest.scheme))
+          {"scheme", s.manifest.has_fe ? ordered_json(s.manifest.scheme_name())
                                        : ordered_json(nullptr)},
           {"windows", s.windows},
           {"window_us", 1e-3 * static_cast<double>(s.manifest.window_ns)},
@@ -65,6 +60,8 @@ ordered_json quality_block(const Summary& s) {
     out["interface_drift_percent"] = s.coupling->drift_percent;
     out["total_balance_percent"] = s.coupling->balance_percent;
     out["largest_gap_mm"] = s.coupling->gap_mm;
+    out["largest_owed_force_N"] = s.coupling->owed_force;
+    out["largest_owed_moment_Nm"] = s.coupling->owed_moment;
     out["resends"] = s.coupling->resends;
     out["iterations_per_window"] = s.coupling->iterations;
   }
@@ -129,7 +126,8 @@ ordered_json to_json(const Summary& s) {
   out["timing"] = {{"wall_s", s.timing.wall},
                    {"mb_s", s.timing.mb},
                    {"fe_s", s.timing.fe},
-                   {"windows_s", s.timing.windows}};
+                   {"windows_s", s.timing.windows},
+                   {"exchange_s", optional(s.timing.exchange)}};
   return out;
 }
 

@@ -99,6 +99,10 @@ void quality_rows(Table& t, const Summary& s) {
     if (s.fe) {
       t.row("interface audit drift", fmt::format("{:.3f} %", s.coupling->drift_percent),
             fmt::format("of {:.3g} J exchanged, limit 1 %", s.coupling->exchanged));
+      t.row("coupling error",
+            fmt::format("{:.2g} N, {:.2g} mm", s.coupling->owed_force, s.coupling->gap_mm),
+            fmt::format("largest force one window late, largest gap; {:.2g} J lost or gained",
+                        s.coupling->drift));
     }
     t.row("energy balance of both sides", fmt::format("{:.2f} %", s.coupling->balance_percent),
           "of the peak energy");
@@ -108,6 +112,10 @@ void quality_rows(Table& t, const Summary& s) {
         s.is_complete ? fmt::format("{} messages", s.messages) : "see the warnings below");
   t.row("wall time", fmt::format("{:.1f} s", s.timing.wall),
         fmt::format("multibody {:.1f} s, finite elements {:.1f} s", s.timing.mb, s.timing.fe));
+  if (s.timing.exchange && s.timing.wall > 0)
+    t.row("coupling overhead", fmt::format("{:.1f} %", 100 * *s.timing.exchange / s.timing.wall),
+          fmt::format("of the wall time, {:.1f} s in which neither side computed",
+                      *s.timing.exchange));
   t.gap();
 }
 

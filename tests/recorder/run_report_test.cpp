@@ -143,6 +143,29 @@ TEST(RunCompare, EqualRunsScoreOneAndShareTheirBars) {
   EXPECT_EQ(input.curves.size(), 2U);
 }
 
+TEST(RunCompare, TwoCouplingsOfOneModelShowTheirErrorBar) {
+  ComparedRun mic{"a", analysis_of(true), {}}, fine = mic;
+  Summary& s = fine.analysis.summary;
+  s.manifest.scheme = 1;
+  s.manifest.window_ns = SyntheticRun::kWindowNs / 2;
+  ASSERT_TRUE(s.card.linear);
+  s.card.linear->peak_g *= 0.995;
+  for (Channel& channel : fine.analysis.channels.channels)
+    if (channel.name == "head_cog_z")
+      channel.samples.back() += 0.04;  // mm, long after head contact
+  const ReportInput input = comparison_input({mic, fine});
+  const auto table =
+      std::find_if(input.tables.begin(), input.tables.end(),
+                   [](const ReportTable& t) { return t.title == "Error bar of the coupling"; });
+  ASSERT_NE(table, input.tables.end());
+  ASSERT_EQ(table->rows.size(), 1U);
+  const std::vector<std::string>& row = table->rows[0];
+  EXPECT_THAT(row[0], HasSubstr("implicit 10 us against mic 20 us"));
+  EXPECT_EQ(row[1], "0.040");
+  EXPECT_EQ(row[3], "0.50");
+  EXPECT_THAT(comparison_text({mic, mic}), testing::Not(HasSubstr("Error bar")));
+}
+
 /// Curves of a test in a folder of scenarios of one's own, equal to a run's but for a factor.
 class OwnCurves {
  public:

@@ -202,6 +202,7 @@ void FullHexBlock<Law>::forces(const StepContext& step, std::span<double> histor
     for (int q = 0; q < kPoints; ++q) {
       F[q] = field_gradient(nodes.x, ref.points[q].gradient);
       F_rate[q] = field_gradient(nodes.v, ref.points[q].gradient);
+      if constexpr (requires { Law::kAlive; }) rest_where_failed(h[kPoints], F[q], F_rate[q]);
       J[q] = determinant(F[q]);
       F_inverse[q] = inverse(F[q], J[q]);
       mean_J += ref.points[q].volume * J[q];

@@ -146,6 +146,19 @@ N hex_stable_step_squared(const HexReference<N>& ref, const Tensor<N>& Fi, const
                                  constant<N>(std::numeric_limits<double>::infinity()));
 }
 
+/// An element that has failed counts as undeformed and at rest: its nodes go on without it and may
+/// turn it inside out, which has no stress to answer with.
+template <class N>
+void rest_where_failed(const N& alive, Tensor<N>& F, Tensor<N>& F_rate) {
+  if (all_positive(alive)) return;
+  const N zero = constant<N>(0);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      F(i, j) = where_less(zero, alive, F(i, j), constant<N>(i == j ? 1 : 0));
+      F_rate(i, j) = where_less(zero, alive, F_rate(i, j), zero);
+    }
+}
+
 /// `least_squared`: the smallest stable step found so far, squared; see above.
 template <class N, class Law>
 HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, const Law& law,
@@ -155,6 +168,8 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
   step.dt = dt;
   step.F = gradient_of(ref, nodes.x);
   step.F_rate = gradient_of(ref, nodes.v);
+  if constexpr (requires { Law::kAlive; })
+    rest_where_failed(history[Law::kAlive], step.F, step.F_rate);
   step.J = determinant(step.F);
   step.F_inverse = inverse(step.F, step.J);
 

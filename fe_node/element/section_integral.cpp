@@ -61,6 +61,7 @@ struct Accumulator {
     n.zx += shear_share * s.zx;
     sum.thinning += point.weight * point_answer.thinning;
     sum.alive = larger(sum.alive, point_answer.alive);
+    sum.intact += point.weight * law.youngs_modulus * point_answer.intact;
   }
 };
 
@@ -92,10 +93,11 @@ SectionAnswer integrate_section(const ShellSection& section, const SectionVector
                                 Lanes* history) {
   const Lanes o = Lanes::Zero();
   Accumulator accumulator{
-      increment, thickness, shear_factor, dt, {{o, o, o, o, o, o, o, o}, o, o, o}};
+      increment, thickness, shear_factor, dt, {{o, o, o, o, o, o, o, o}, o, o, o, o}};
   for (const ShellLayer& layer : section.layers)
     history = std::visit(
         [&](const auto& law) { return accumulator.layer(law, layer.points, history); }, layer.law);
+  accumulator.answer.intact *= 1 / section.youngs_modulus();
   return accumulator.answer;
 }
 

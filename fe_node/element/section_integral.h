@@ -12,6 +12,7 @@ struct SectionAnswer {
   Lanes work;      ///< J/m2, of this step
   Lanes thinning;  ///< mean normal strain increment
   Lanes alive;     ///< 0 when every point has failed
+  Lanes intact;    ///< share of the elastic stiffness in the plane that cracks have left
 };
 
 /// Lanes of history a section keeps.

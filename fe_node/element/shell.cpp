@@ -10,7 +10,15 @@ namespace crosswalk::fe {
 namespace {
 
 /// Per lane group in front of the points' history.
-enum Header { kEnergy, kHourglassEnergy, kThickness, kAlive, kControl, kHeader = kControl + 5 };
+enum Header {
+  kEnergy,
+  kHourglassEnergy,
+  kThickness,
+  kAlive,
+  kIntact,
+  kControl,
+  kHeader = kControl + 5
+};
 
 /// Transverse shear of the triangle is softened by t^2 / (t^2 + 0.1 h^2), h^2 = 2 A
 /// [lyly1993]: without it thin triangles lock.
@@ -20,10 +28,30 @@ inline Lanes shear_softening(const Lanes& thickness, const Lanes& area) {
   return t2 / (t2 + 2 * kShearSoftening * area);
 }
 
+/// Control that a pane cracked through keeps.
+constexpr double kLeastIntact = 1e-4;
+
 template <int kCorners>
 struct ShellGeometry {
   Lanes3 x[kCorners], v[kCorners], spin[kCorners];
 };
+
+/// An element that has failed counts as a square at rest: its nodes go on without it and may fold
+/// it to nothing.
+template <int kCorners>
+void rest_where_failed(const Lanes& alive, ShellGeometry<kCorners>& g) {
+  constexpr double kSquare[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const auto rest = [&alive](Lanes3& a, const double(&b)[3]) {
+    Lanes* of[] = {&a.x, &a.y, &a.z};
+    for (int k = 0; k < 3; ++k)
+      *of[k] = where_less(Lanes::Zero(), alive, *of[k], Lanes::Constant(b[k]));
+  };
+  for (int corner = 0; corner < kCorners; ++corner) {
+    rest(g.x[corner], kSquare[corner]);
+    rest(g.v[corner], kSquare[0]);
+    rest(g.spin[corner], kSquare[0]);
+  }
+}
 
 template <int kCorners>
 class ShellBlock final : public ElementBlock {
@@ -63,7 +91,7 @@ class ShellBlock final : public ElementBlock {
                             const Lanes& mass, const Lanes& gyration) const;
   void add_hourglass(const ShellShape<kCorners>& middle, const ShellShape<kCorners>& end,
                      const Lanes3 (&v)[kCorners], const Lanes3 (&spin)[kCorners], const Lanes& mass,
-                     double dt, Lanes* history, Lanes3 (&force)[kCorners],
+                     const Lanes& intact, double dt, Lanes* history, Lanes3 (&force)[kCorners],
                      Lanes3 (&moment)[kCorners], Lanes& dissipated) const;
 
   void find_inverted(const Lanes& area, int group, BlockSums& sums) const;
@@ -72,6 +100,7 @@ class ShellBlock final : public ElementBlock {
   ElementControls controls_;
   double density_ = 0;
   double youngs_ = 0, poisson_ = 0;                       ///< of the stiffest layer
+  double mean_youngs_ = 0;                                ///< over the thickness
   PerElement thickness_, area_, mass_, gyration_, step_;  ///< mass with what scaling added
   PerElement added_;                                      ///< kg
 };
@@ -83,7 +112,8 @@ ShellBlock<kCorners>::ShellBlock(const Mesh& mesh, ElementKind kind, int part,
     : ElementBlock(mesh, kind, part, std::move(elements)),
       section_(section),
       controls_(controls),
-      density_(section.density()) {
+      density_(section.density()),
+      mean_youngs_(section.youngs_modulus()) {
   for (const ShellLayer& layer : section_.layers)
     std::visit(
         [this](const auto& law) {
@@ -134,7 +164,7 @@ void ShellBlock<kCorners>::initialise(std::span<double> history) const {
                                         static_cast<std::size_t>(group) * history_per_group());
     for (int i = 0; i < kHeader; ++i) h[i] = Lanes::Zero();
     h[kThickness] = lanes_of(thickness_, group);
-    h[kAlive] = Lanes::Ones();
+    h[kAlive] = h[kIntact] = Lanes::Ones();
     initialise_section(section_, h + kHeader);
   }
 }
@@ -179,13 +209,16 @@ Lanes ShellBlock<kCorners>::stable_step_squared(const ShellShape<kCorners>& shap
   return 4.0 * mass / (kCorners * shape.area * thickness * stiffness);
 }
 
+/// Control is as stiff as what is left of the section: a cracked pane folds along lines that whole
+/// glass would forbid. What a crack sets free of the control's own energy is dissipated.
 template <int kCorners>
 void ShellBlock<kCorners>::add_hourglass(const ShellShape<kCorners>& middle,
                                          const ShellShape<kCorners>& end,
                                          const Lanes3 (&v)[kCorners],
                                          const Lanes3 (&spin)[kCorners], const Lanes& mass,
-                                         double dt, Lanes* history, Lanes3 (&force)[kCorners],
-                                         Lanes3 (&moment)[kCorners], Lanes& dissipated) const {
+                                         const Lanes& intact, double dt, Lanes* history,
+                                         Lanes3 (&force)[kCorners], Lanes3 (&moment)[kCorners],
+                                         Lanes& dissipated) const {
   static_assert(kCorners == 4);
   const bool is_bending = has_moments();
   const double r = controls_.hourglass_coefficient;
@@ -214,16 +247,19 @@ void ShellBlock<kCorners>::add_hourglass(const ShellShape<kCorners>& middle,
   Lanes factor[3];  // membrane, warping, bending
   const bool is_stiff = controls_.hourglass == HourglassForm::Stiffness;
   if (is_stiff) {
-    factor[0] = (r * youngs_ / 8) * t * end.area * trace;
+    const Lanes stiffness = mean_youngs_ * intact;
+    factor[0] = (r / 8) * stiffness * t * end.area * trace;
     factor[2] = factor[0] * t * t * (1.0 / 24);
     factor[1] =
-        (r * section_.shear_factor * 0.5 * youngs_ / (1 + poisson_) / 12) * t * t * t * trace;
+        (r * section_.shear_factor * 0.5 / (1 + poisson_) / 12) * stiffness * t * t * t * trace;
   } else {
     const double c = std::sqrt(youngs_ / (density_ * (1 - poisson_ * poisson_)));
     factor[0] = (0.25 * r * c) * mass / square_root(end.area);
     factor[2] = factor[0] * t * t * (1.0 / 12);
     factor[1] = factor[2] * trace;
   }
+  const Lanes kept = intact / history[kIntact];
+  history[kIntact] = intact;
   const int modes = is_bending ? 5 : 2;
   Lanes load[5];
   for (int k = 0; k < modes; ++k) {
@@ -231,7 +267,10 @@ void ShellBlock<kCorners>::add_hourglass(const ShellShape<kCorners>& middle,
     if (is_stiff) {
       Lanes& stored = history[kControl + k];
       const Lanes before = stored;
-      stored += f * mode[k] * dt;
+      stored = kept * before + f * mode[k] * dt;
+      const Lanes released = 0.5 * kept * (1.0 - kept) * before * before / (f + 1e-300);
+      history[kHourglassEnergy] -= released;
+      dissipated += released;
       history[kHourglassEnergy] += 0.5 * (before + stored) * mode[k] * dt;
       load[k] = stored;
     } else {
@@ -265,7 +304,8 @@ CW_FLATTEN void ShellBlock<kCorners>::forces(const StepContext& step, std::span<
   for (int group = first; group < last; ++group) {
     Lanes* h = reinterpret_cast<Lanes*>(history.data() +
                                         static_cast<std::size_t>(group) * history_per_group());
-    const ShellGeometry<kCorners> g = load(step, group);
+    ShellGeometry<kCorners> g = load(step, group);
+    if (!all_positive(h[kAlive])) rest_where_failed(h[kAlive], g);
     Lanes3 x[kCorners], v[kCorners], spin[kCorners];
     for (int i = 0; i < kCorners; ++i)
       x[i] = difference(g.x[i], scaled(g.v[i], Lanes::Constant(half)));
@@ -294,7 +334,9 @@ CW_FLATTEN void ShellBlock<kCorners>::forces(const StepContext& step, std::span<
     Lanes dissipated = Lanes::Zero();
     if constexpr (kCorners == 4) {
       if (controls_.hourglass != HourglassForm::None)
-        add_hourglass(middle, end, v, spin, mass, step.dt, h, force, moment, dissipated);
+        add_hourglass(middle, end, v, spin, mass,
+                      larger(answer.intact, Lanes::Constant(kLeastIntact)), step.dt, h, force,
+                      moment, dissipated);
     }
     for (int i = 0; i < kCorners; ++i) {
       const std::size_t slot = corner_slot(group - first, i, 0);

@@ -77,6 +77,14 @@ double ShellSection::density() const {
   return sum;
 }
 
+double ShellSection::youngs_modulus() const {
+  double sum = 0;
+  for (const ShellLayer& layer : layers)
+    for (const ShellPoint& point : layer.points)
+      sum += point.weight * std::visit([](const auto& l) { return l.youngs_modulus; }, layer.law);
+  return sum;
+}
+
 ShellSection uniform_section(ShellLaw law, double thickness, int points, ThicknessRule rule) {
   ShellSection section;
   section.thickness = thickness;

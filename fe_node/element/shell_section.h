@@ -45,7 +45,8 @@ struct ShellSection {
   double shear_factor = 5.0 / 6.0;
   std::vector<ShellLayer> layers;  ///< from the bottom
 
-  double density() const;  ///< kg/m3, mean over the thickness
+  double density() const;         ///< kg/m3, mean over the thickness
+  double youngs_modulus() const;  ///< Pa, likewise
 };
 
 /// One law over the whole thickness. Gauss points (1..5) sample inside, Lobatto points (3..10 here

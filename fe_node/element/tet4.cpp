@@ -110,6 +110,11 @@ class Tet4Block final : public ElementBlock {
     bound.density = 2.0 * groups_[group].density;  // four corners share the mass instead of eight
     return hex_stable_step_squared(bound, F_inverse, J, bulk, shear);
   }
+  struct Deformation {
+    Tensor<Lanes> F, F_rate;
+  };
+  /// None of an element that has failed.
+  Deformation deformation(const StepContext& step, int group, const Lanes* h) const;
   /// Dilation of an element from that of its nodes; then the law's answer into the history.
   void update_law(const StepContext& step, int group, const Tensor<Lanes>& F,
                   const Tensor<Lanes>& F_rate, const Lanes& J, const Lanes& mean_J, Lanes* h) const;
@@ -232,6 +237,16 @@ void Tet4Block<Law>::average_at_nodes(std::span<double> history, int slot, doubl
 }
 
 template <class Law>
+auto Tet4Block<Law>::deformation(const StepContext& step, int group, const Lanes* h) const
+    -> Deformation {
+  const TetNodes nodes = load(step, group);
+  Deformation now{field_gradient(nodes.x, groups_[group].gradient),
+                  field_gradient(nodes.v, groups_[group].gradient)};
+  rest_where_failed(h[kAlive], now.F, now.F_rate);
+  return now;
+}
+
+template <class Law>
 void Tet4Block<Law>::update_law(const StepContext& step, int group, const Tensor<Lanes>& F,
                                 const Tensor<Lanes>& F_rate, const Lanes& J, const Lanes& mean_J,
                                 Lanes* h) const {
@@ -256,16 +271,13 @@ template <class Law>
 void Tet4Block<Law>::prepare(const StepContext& step, std::span<double> history) const {
 #pragma omp parallel for schedule(static) num_threads(step.threads)
   for (int group = 0; group < group_count(); ++group)
-    at(history, group)[kJ] =
-        determinant(field_gradient(load(step, group).x, groups_[group].gradient));
+    at(history, group)[kJ] = determinant(deformation(step, group, at(history, group)).F);
   average_at_nodes(history, kJ, 1.0, step.threads);
 #pragma omp parallel for schedule(static) num_threads(step.threads)
   for (int group = 0; group < group_count(); ++group) {
-    const TetNodes nodes = load(step, group);
     Lanes* h = at(history, group);
-    update_law(step, group, field_gradient(nodes.x, groups_[group].gradient),
-               field_gradient(nodes.v, groups_[group].gradient), h[kJ],
-               mean_of_nodes(history, group), h);
+    const Deformation now = deformation(step, group, h);
+    update_law(step, group, now.F, now.F_rate, h[kJ], mean_of_nodes(history, group), h);
   }
   average_at_nodes(history, kPressure, 0.0, step.threads);
 }
@@ -277,10 +289,8 @@ void Tet4Block<Law>::forces(const StepContext& step, std::span<double> history,
   LaneSums lanes;
   for (int group = first; group < last; ++group) {
     const TetReference& ref = groups_[group];
-    const TetNodes nodes = load(step, group);
     Lanes* h = at(history, group);
-    const Tensor<Lanes> F = field_gradient(nodes.x, ref.gradient),
-                        F_rate = field_gradient(nodes.v, ref.gradient);
+    const auto [F, F_rate] = deformation(step, group, h);
     HexAnswer<Lanes> answer;  // for the sums
     answer.J = determinant(F);
     const Tensor<Lanes> F_inverse = inverse(F, answer.J);

@@ -91,6 +91,8 @@ struct ShellGlass {
     s.xx = mean2 + half2 * cc - nt * ss;
     s.yy = mean2 - half2 * cc + nt * ss;
     s.xy = half2 * ss + nt * cc;
+    const N whole = constant<N>(strength);
+    answer.intact = (0.5 / strength) * (smaller(cap_n, whole) + smaller(cap_t, whole));
     answer.thinning = (-poisson_ratio / (1 - poisson_ratio)) * (step.strain.xx + step.strain.yy);
     return answer;
   }

@@ -36,6 +36,7 @@ struct PlaneAnswer {
   PlaneTensor<N> stress;  ///< Pa
   N thinning;             ///< increment of the normal strain that keeps the normal stress zero
   N alive = constant<N>(1);
+  N intact = constant<N>(1);  ///< share of the elastic stiffness in the plane that cracks have left
 };
 
 /// a . b as work: sum of products, engineering shear counted once.

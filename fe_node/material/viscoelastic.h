@@ -3,13 +3,14 @@
 // in the total form of [simo1987]: the instantaneous response is the isochoric neo-Hooke law with
 // G_0 = G_inf + sum G_i, and each term relaxes a stress-like internal variable kept in the
 // undeformed frame, so a rigid rotation leaves it untouched. The series is the deviatoric law of
-// *MAT_VISCOELASTIC and *MAT_KELVIN-MAXWELL for small strain; pressure is -K (J - 1).
+// *MAT_VISCOELASTIC and *MAT_KELVIN-MAXWELL for small strain; pressure as in volume_law.h.
 #pragma once
 
 #include <array>
 
 #include "fe_node/material/cube_root.h"
 #include "fe_node/material/material.h"
+#include "fe_node/material/volume_law.h"
 
 namespace crosswalk::fe {
 
@@ -68,7 +69,7 @@ struct Viscoelastic {
 
     const double G0 = shear_modulus();
     const N shift = contract(Y, C) * (1.0 / 3.0);
-    const N pressure_part = bulk * (J - 1.0) * J - shift;
+    const N pressure_part = 0.5 * bulk * (J * J - 1.0) - shift;
     const Symmetric<N> S{G0 * T.xx + Y.xx + pressure_part * C_inverse.xx,
                          G0 * T.yy + Y.yy + pressure_part * C_inverse.yy,
                          G0 * T.zz + Y.zz + pressure_part * C_inverse.zz,
@@ -81,9 +82,9 @@ struct Viscoelastic {
         contract(Y_middle, dE) - contract(Y_middle, C) * (1.0 / 3.0) * contract(C_inverse, dE);
     SolidAnswer<N> answer;
     answer.P = product(step.F, S);
-    answer.energy = 1.5 * G0 * (isochoric * trace_share - 1.0) +
-                    0.5 * bulk * (J - 1.0) * (J - 1.0) + history[0];
-    answer.bulk_modulus = constant<N>(bulk);
+    answer.energy =
+        1.5 * G0 * (isochoric * trace_share - 1.0) + 0.5 * bulk * volume_energy(J) + history[0];
+    answer.bulk_modulus = 0.5 * bulk * (J + 1.0 / J);  // -J dp/dJ
     answer.shear_modulus = constant<N>(G0);
     return answer;
   }

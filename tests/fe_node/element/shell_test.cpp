@@ -192,5 +192,39 @@ TEST(ShellSection, BondedLaminateHasTheBendingStiffnessOfTheSum) {
   EXPECT_NEAR(stiffness, 748.9 - 0.0, 3.0);
 }
 
+// A square's hourglass mode is orthogonal to every load of constant stress, so the projection on it
+// is the control's load alone.
+TEST(ShellHourglass, ControlOfAPaneFallsWithItsCracks) {
+  const auto control_load = [](GlassFracture fracture, const Vec3& stretch) {
+    const ShellGlass glass{.density = 2500,
+                           .youngs_modulus = kYoungs,
+                           .poisson_ratio = kPoisson,
+                           .strength = 50e6,
+                           .fracture = fracture};
+    const ShellElastic film{1100, 0.28e9, 0.45};
+    const Plate square{.nx = 1, .ny = 1, .length = 0.01, .width = 0.01};
+    const Model model =
+        plate_model(square, laminate({{glass, 2e-3, 2}, {film, 1e-3, 1}, {glass, 2e-3, 2}}));
+    PlateMotion motion = still(model);
+    double load = 0;
+    const int corners[] = {square.node(0, 0), square.node(1, 0), square.node(1, 1),
+                           square.node(0, 1)};
+    for (int i = 0; i < 4; ++i)
+      motion.displacement[corners[i]] = stretch.cwiseProduct(model.mesh.position[corners[i]]) +
+                                        Vec3(i % 2 == 0 ? 1e-6 : -1e-6, 0, 0);
+    const NodalLoads loads = loads_after(model, motion);
+    for (int i = 0; i < 4; ++i) load += (i % 2 == 0 ? 1 : -1) * loads.force[corners[i]].x();
+    return load;
+  };
+  const Vec3 one_way(1e-3, -0.23e-3, 0), both_ways(1e-3, 1e-3, 0);
+  const double film = 0.28e9 / (0.28e9 + 4 * kYoungs);
+  const double whole = control_load(GlassFracture::Off, one_way);
+  EXPECT_LT(whole, 0);
+  EXPECT_NEAR(control_load(GlassFracture::Local, one_way) / whole, film + 0.5 * (1 - film), 1e-9);
+  EXPECT_NEAR(
+      control_load(GlassFracture::Local, both_ways) / control_load(GlassFracture::Off, both_ways),
+      film, 1e-9);
+}
+
 }  // namespace
 }  // namespace crosswalk::fe

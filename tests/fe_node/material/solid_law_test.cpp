@@ -54,6 +54,21 @@ TEST(SolidLaws, ElasticHasEveryProperty) { expect_law(Elastic::from_young(7850, 
 TEST(SolidLaws, ViscoelasticHasEveryProperty) {
   expect_law(Viscoelastic::from_single_term(1040, 2.19e6, 6e3, 1.2e3, 80));
 }
+// p = K/2 (1/J - J), however far the volume is squeezed out; the logarithm and its series meet.
+TEST(Viscoelastic, PressureGrowsWithoutBoundAsTheVolumeVanishes) {
+  const Viscoelastic law = Viscoelastic::from_single_term(1000, 20e6, 30e3, 10e3, 100);
+  for (const double J : {1.2, 1.005, 0.999, 0.9, 0.5, 0.1, 0.01}) {
+    MaterialPoint<Viscoelastic> point(law);
+    point.move_to(std::cbrt(J) * Mat3::Identity(), 1e-6);
+    EXPECT_NEAR(-point.cauchy().trace() / 3, 10e6 * (1 / J - J), 1e-6 * 20e6 / J) << J;
+    EXPECT_NEAR(point.answer().energy, 10e6 * (0.5 * (J * J - 1) - std::log(J)), 1e-9 * 20e6 / J)
+        << J;
+    EXPECT_NEAR(point.answer().bulk_modulus, 10e6 * (1 / J + J), 1) << J;
+  }
+  for (const double J : {1 - kNearOne, 1 + kNearOne})
+    EXPECT_NEAR(volume_energy_near_one(J) / (0.5 * (J * J - 1) - std::log(J)), 1, 1e-10);
+}
+
 TEST(SolidLaws, PlasticHasEveryProperty) {
   LawTraits traits;
   traits.has_energy = false;  // rate form: exact only along the path

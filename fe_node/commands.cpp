@@ -136,9 +136,9 @@ NodeCommand validate_command() {
             const std::map<std::string, Fidelity> sizes{{"coarse", Fidelity::Coarse},
                                                         {"medium", Fidelity::Medium},
                                                         {"fine", Fidelity::Fine}};
-            options.add_option("subject", request->subject, "head or neck")
+            options.add_option("subject", request->subject, "head, neck or windshield")
                 ->required()
-                ->check(CLI::IsMember({"head", "neck"}));
+                ->check(CLI::IsMember({"head", "neck", "windshield"}));
             options.add_option("cases", request->names, "Names of cases; all by default");
             options.add_option("--fidelity", request->fidelity, "Mesh: coarse, medium or fine")
                 ->transform(CLI::CheckedTransformer(sizes));
@@ -148,7 +148,7 @@ NodeCommand validate_command() {
                 ->check(CLI::Range(0, 256));
             std::string footer = "Cases:\n";
             for (const validate::Case& c : validate::cases())
-              footer += fmt::format("  {:<5} {:<18} {}\n", c.subject, c.name, c.purpose);
+              footer += fmt::format("  {:<10} {:<18} {}\n", c.subject, c.name, c.purpose);
             options.footer(footer);
             return [request] {
               if (request->threads == 0) request->threads = omp_get_max_threads();

@@ -23,7 +23,7 @@ struct WindshieldSpec {
   double upper_x = 1.840, upper_z = 1.430;                   ///< of the upper edge [E]
   double width = 1.400;                                      ///< m [E]
   double sagitta = 0;                                        ///< bulge of the middle outwards, m
-  double panel_thickness = 1.0e-3;                           ///< m [E]
+  double panel_thickness = 0.7e-3;                           ///< m [E], see docs/validation.md
   double glass_thickness = 2.1e-3, pvb_thickness = 0.76e-3;  ///< m per ply, of the interlayer
   UnitSystem units = UnitSystem::MmTonneS;
 };

@@ -77,6 +77,13 @@ void DeckCase::start_velocity(const Vec3& velocity) {
   deck.initial_velocities.push_back(start);
 }
 
+void DeckCase::start_velocity(const std::vector<int>& nodes, const Vec3& velocity) {
+  InitialVelocity start;
+  start.set = add_set(nodes);
+  start.velocity = velocity / units_.velocity();
+  deck.initial_velocities.push_back(start);
+}
+
 void DeckCase::add_plane(const Vec3& point, const Vec3& normal, const std::vector<int>& nodes,
                          double friction) {
   RigidWall wall;
@@ -146,8 +153,7 @@ void DeckRun::run(double end, double interval, const std::function<void(const St
       next += interval;
     }
     if (state_.time >= end * (1 - 1e-12)) return;
-    const double dt =
-        std::min(built_.model.settings.step_scale * report.stable_step, end - state_.time);
+    const double dt = std::min(next_step(built_.model, state_, report), end - state_.time);
     for (std::size_t b = 0; b < built_.model.bodies.size(); ++b)
       scratch_->body_command[b] = state_.bodies[b].V_WB;
     set_log_time(state_.time);

@@ -30,6 +30,7 @@ class DeckCase {
   /// Force over time, shared evenly by the nodes.
   void load_nodes(const std::vector<int>& nodes, int axis, const Points& total_force);
   void start_velocity(const Vec3& velocity);
+  void start_velocity(const std::vector<int>& nodes, const Vec3& velocity);
   /// A fixed rigid plane or sphere; only `nodes` touch it.
   void add_plane(const Vec3& point, const Vec3& normal, const std::vector<int>& nodes,
                  double friction);

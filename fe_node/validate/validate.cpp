@@ -24,6 +24,10 @@ std::vector<Case> cases() {
       {"neck", "neck_ranges", "angles of each level at 1 N m", neck_ranges},
       {"neck", "neck_lateral", "lateral sled of 7 g", neck_lateral},
       {"neck", "neck_frontal", "frontal sled of 15 g", neck_frontal},
+      {"windshield", "plate_impedance", "closed form: mass on a plate", plate_impedance},
+      {"windshield", "headform_drop", "headform on its certification plate", headform_drop},
+      {"windshield", "headform_panel", "headform at 35 and 40 km/h, steel panel", headform_panel},
+      {"windshield", "headform_laminated", "the same, laminated glass", headform_laminated},
   };
 }
 

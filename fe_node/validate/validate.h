@@ -18,7 +18,7 @@ struct CaseContext {
 };
 
 struct Case {
-  std::string subject;  ///< head, neck
+  std::string subject;  ///< head, neck, windshield
   std::string name;
   std::string purpose;
   std::function<CaseResult(const CaseContext&)> run;
@@ -51,5 +51,9 @@ CaseResult mesh_refinement(const CaseContext& context);
 CaseResult neck_ranges(const CaseContext& context);
 CaseResult neck_lateral(const CaseContext& context);
 CaseResult neck_frontal(const CaseContext& context);
+CaseResult plate_impedance(const CaseContext& context);
+CaseResult headform_drop(const CaseContext& context);
+CaseResult headform_panel(const CaseContext& context);
+CaseResult headform_laminated(const CaseContext& context);
 
 }  // namespace crosswalk::fe::validate

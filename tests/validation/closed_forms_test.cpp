@@ -1,4 +1,4 @@
-// The closed forms of `crosswalk validate head` hold: they are gates.
+// The closed forms of `crosswalk validate head` and `windshield` hold: they are gates.
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -22,6 +22,7 @@ void expect_gates(CaseResult (*run)(const CaseContext&), const char* name) {
 
 TEST(ClosedForms, OscillatingBall) { expect_gates(sphere_torsion, "sphere_torsion"); }
 TEST(ClosedForms, AcceleratedBall) { expect_gates(sphere_pressure, "sphere_pressure"); }
+TEST(ClosedForms, MassOnAPlate) { expect_gates(plate_impedance, "plate_impedance"); }
 
 }  // namespace
 }  // namespace crosswalk::fe::validate

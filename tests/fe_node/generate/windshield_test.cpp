@@ -27,7 +27,7 @@ TEST(Windshield, WeighsItsAreaTimesItsPlies) {
   spec.cell = 0.020;
   const double area = spec.width * 0.88685;  // between (1070, 990) and (1840, 1430)
   EXPECT_NEAR(inertia_of(build_windshield(spec), {part::kWindshield}, false).mass,
-              area * 1e-3 * 7850, 1e-3);
+              area * spec.panel_thickness * 7850, 1e-3);
   spec.kind = WindshieldKind::Laminated;
   EXPECT_NEAR(inertia_of(build_windshield(spec), {part::kWindshield}, false).mass, area * 11.336,
               1e-2);

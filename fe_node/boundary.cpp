@@ -41,6 +41,10 @@ double stable_step_of(const Model& model, State& state, Scratch& scratch) {
   return model.settings.step_scale * state.stable_step;
 }
 
+Vec3 mass_centre(const Model& model, const State& state, int body) {
+  return state.bodies[body].X_WB * model.bodies[body].inertia.com;
+}
+
 }  // namespace
 
 std::vector<Inertia> rebase_bodies(const Boundary& boundary,
@@ -76,9 +80,12 @@ WindowLoads advance_window(const Model& model, const Boundary& boundary, const F
 
   WindowLoads result;
   result.substeps = substeps;
+  result.step = dt;
+  result.blocks.resize(attached);
   result.loads = begin_window(boundary, grant, state);
   Eigen::VectorXd V = stacked_velocities(grant);
   Eigen::VectorXd excess(6 * attached);
+  std::vector<Vec3> before(attached);
   const double gap_time = std::max(kGapTime, window);
   for (int j = 0; j < substeps; ++j) {
     if (watch) watch->look(model, state, scratch);
@@ -101,7 +108,16 @@ WindowLoads advance_window(const Model& model, const Boundary& boundary, const F
       }
       scratch.body_command[boundary.bodies[k]] = command;
     }
+    const bool is_shown = j == 0 || j == substeps - 1;
+    for (int k = 0; k < attached && is_shown; ++k)
+      before[k] = mass_centre(model, state, boundary.bodies[k]);
     move(model, state, scratch, dt);
+    for (int k = 0; k < attached && is_shown; ++k) {
+      const int body = boundary.bodies[k];
+      BlockTwists& block = result.blocks[k];
+      block.last = {(mass_centre(model, state, body) - before[k]) / dt, state.bodies[body].V_WB.w};
+      if (j == 0) block.first = block.last;
+    }
   }
   for (int k = 0; k < count; ++k) result.loads[k].twist_end = twist_from(V.segment<6>(6 * k));
   return result;

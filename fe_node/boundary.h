@@ -35,9 +35,17 @@ std::vector<Inertia> rebase_bodies(const Boundary& boundary,
                                    const std::vector<InterfaceBody>& partners, Model& model,
                                    State& state);
 
+/// Twists of a block about its own mass centre over the first and the last substep of a window:
+/// the way of that point by the step's length, and the turning.
+struct BlockTwists {
+  Twist first, last;
+};
+
 struct WindowLoads {
   std::vector<BodyLoad> loads;
   int substeps = 0;
+  double step = 0;                  ///< s, of each
+  std::vector<BlockTwists> blocks;  ///< of the attached bodies
 };
 
 /// Advances the model by one window in equal substeps of at most settings.step_scale times the

@@ -145,6 +145,10 @@ FeConfig read_fe_config(ConfigDocument& document, const Scenario& scenario) {
   config.strain_interval =
       output.quantity_or("strain_interval", Dimension::Time, kPositive, 2e-4,
                          "Time between samples of the largest strains so far.");
+  config.logs_block_motion =
+      output.flag_or("block_motion", false,
+                     "Write model/driven.k: the deck with the motion of its blocks, for "
+                     "`crosswalk solve` (some 60 kB per ms).");
   return config;
 }
 

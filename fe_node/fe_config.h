@@ -47,6 +47,7 @@ struct FeConfig {
   double field_interval = 1e-3;    ///< s; 0: none
   double tissue_interval = 1e-3;   ///< s between published metrics
   double strain_interval = 2e-4;   ///< s between samples of the strain peaks
+  bool logs_block_motion = false;  ///< as a deck, model/driven.k
 };
 
 FeConfig read_fe_config(ConfigDocument& document, const Scenario& scenario);

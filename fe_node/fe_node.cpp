@@ -118,11 +118,24 @@ std::vector<InterfaceBody> FeNode::place(std::vector<InterfaceBody> bodies) {
   const std::vector<Inertia> blocks =
       rebase_bodies(node_.boundary, bodies, node_.built.model, run_.state);
   for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].block = blocks[k];
+  start_motion_log(X_WD, V_WD);
   run_.head_twist = head_.twist(run_.state);
   run_.peaks = tissue_.no_peaks();
   if (!folder_.empty() && config_.field_interval > 0)
     fields_ = std::make_unique<FieldWriter>(node_.built.model, folder_ / "fields");
   return bodies;
+}
+
+void FeNode::start_motion_log(const Pose& X_WD, const Twist& V_WD) {
+  BlockMotionSetup setup = node_.motion;
+  if (!config_.logs_block_motion || folder_.empty() || config_.is_head_alone) return;
+  if (static_cast<int>(setup.blocks.size()) < node_.boundary.attached) {
+    log_warning("no model/driven.k: an attached body follows no rigid part of the deck");
+    return;
+  }
+  setup.X_WD = X_WD;
+  setup.V_WD = V_WD;
+  motion_log_.emplace(std::move(setup), folder_ / "model");
 }
 
 FeReply FeNode::run_window(const FeGrant& grant) {
@@ -133,8 +146,8 @@ FeReply FeNode::run_window(const FeGrant& grant) {
     log_info("the head is near the windshield: it takes part from {:.2f} ms on",
              1e3 * run_.state.time);
   }
-  const WindowLoads window =
-      advance_window(model, node_.boundary, grant, run_.state, *scratch_, &watch_);
+  last_window_ = advance_window(model, node_.boundary, grant, run_.state, *scratch_, &watch_);
+  const WindowLoads& window = last_window_;
   progress_ += window.substeps;
   FeReply reply;
   reply.substeps = window.substeps;
@@ -171,7 +184,10 @@ FeReply FeNode::advance(const FeGrant& grant, RecordSink& sink) {
       throw;
     }
   }
-  if (grant.id.phase != Phase::Evaluate) publish(grant.id, sink);
+  if (grant.id.phase != Phase::Evaluate) {
+    if (motion_log_) motion_log_->add(grant.id.begin_s(), last_window_);
+    publish(grant.id, sink);
+  }
   return last_reply_;
 }
 
@@ -253,6 +269,7 @@ void FeNode::load_state(const std::vector<std::byte>& bytes) {
   progress_ = reader.take<std::int64_t>();
   reader.require_end();
   if (fields_) fields_->continue_after(run_.state.time);
+  if (motion_log_) motion_log_->continue_after(run_.state.time);
 }
 
 }  // namespace crosswalk::fe

@@ -44,6 +44,7 @@ class FeNode : public FeParticipant {
   void compare_with_multibody_head() const;
   FeReply run_window(const FeGrant& grant);
   void publish(const WindowId& id, RecordSink& sink);
+  void start_motion_log(const Pose& X_WD, const Twist& V_WD);
 
   FeConfig config_;
   int threads_;
@@ -56,6 +57,8 @@ class FeNode : public FeParticipant {
   LastSound sound_;
   std::int64_t next_sound_ns_ = 0;
   std::unique_ptr<FieldWriter> fields_;
+  std::optional<BlockMotionLog> motion_log_;
+  WindowLoads last_window_;
   Run run_, saved_;
   FeReply last_reply_;
   std::atomic<std::int64_t> progress_{0};

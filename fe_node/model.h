@@ -20,6 +20,7 @@ namespace crosswalk::fe {
 struct SolverSettings {
   double step_scale = 0.9;       ///< of the smallest stable step [hallquist2006, 22.1]
   double fixed_step = 0;         ///< s; > 0 overrules the estimate
+  Curve step_limit;              ///< s over time: no step is longer; may be empty
   double mass_scaling_step = 0;  ///< s; > 0: mass is added so that no element needs less
   double mass_damping = 0;       ///< 1/s, Rayleigh alpha on all nodes
   Vec3 gravity = Vec3::Zero();   ///< m/s2

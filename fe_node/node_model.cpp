@@ -56,8 +56,7 @@ class Assembly {
     choose_bodies();
     Deck deck = head_neck_deck();
     if (config_.is_head_alone) keep_head_alone(deck);
-    if (config_.is_head_alone && result_.boundary.attached > 0)
-      drive_skull(deck, driven_.front());
+    if (config_.is_head_alone && result_.boundary.attached > 0) drive_skull(deck, driven_.front());
     write(deck, config_.is_head_alone ? "head.k" : "head_neck.k");
     options_.units = config_.head_neck.units;
     options_.mass_scaling_step = 0;
@@ -75,6 +74,7 @@ class Assembly {
     options_.driven_parts = driven_;
     options_.followers = followers_;
     options_.mass_scaling_step = config_.added_mass_limit > 0 ? step : 0;
+    set_up_motion_log(deck);
     BuiltModel& built = result_.built;
     built = build_model(deck, options_);
     built.model.settings.step_scale = config_.step_scale;
@@ -126,6 +126,19 @@ class Assembly {
     BuiltModel trial = build_model(deck, options);
     trial.model.settings.step_scale = config_.step_scale;
     return mass_scaling_step_for(trial.model, config_.added_mass_limit);
+  }
+
+  void set_up_motion_log(const Deck& deck) {
+    BlockMotionSetup& motion = result_.motion;
+    for (const InterfaceSpec& interface : config_.interfaces)
+      for (const Part& part : deck.parts)
+        if (interface.is_attached && part.title == block_title(interface.body))
+          motion.blocks.push_back({interface.body, part.id.value});
+    motion.units = deck.units != UnitSystem::Unknown ? deck.units : options_.units;
+    motion.gravity = {0, 0, -config_.gravity};
+    motion.element_step =
+        options_.mass_scaling_step / (deck.control.time_step ? deck.control.time_step->scale : 0.9);
+    motion.step_scale = config_.step_scale;
   }
 
   int find_body(const std::string& name) const {

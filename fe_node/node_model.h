@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "fe_node/block_motion.h"
 #include "fe_node/boundary.h"
 #include "fe_node/fe_config.h"
 #include "fe_node/model_builder/model_builder.h"
@@ -17,6 +18,7 @@ struct NodeModel {
   Vec3 joint = Vec3::Zero();              ///< point of the head's deck on the multibody C7/T1 joint
   std::vector<int> head_surface;          ///< nodes that may touch something
   std::vector<std::size_t> car_contacts;  ///< indices of the contacts of head and car
+  BlockMotionSetup motion;                ///< but for the place at the start
 };
 
 /// Reads or generates the decks, writes them to `folder`/model (empty: nowhere) and builds the

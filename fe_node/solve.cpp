@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -14,8 +15,10 @@
 #include "fe_node/last_sound.h"
 #include "fe_node/model_builder/model_builder.h"
 #include "fe_node/output/field_writer.h"
+#include "fe_node/output/head_motion.h"
 #include "fe_node/output/history.h"
 #include "fe_node/output/state_bytes.h"
+#include "fe_node/own_head.h"
 #include "fe_node/solver.h"
 
 namespace crosswalk::fe {
@@ -39,6 +42,34 @@ class EnergyHistory {
   }
 
  private:
+  std::ofstream file_;
+};
+
+/// Motion of the head's mass centre where the deck says what the head is: sets `head`, `skull_fit`.
+class HeadHistory {
+ public:
+  HeadHistory(const BuiltModel& built, const std::filesystem::path& path) {
+    const int skull = built.model.mesh.find_node_set(kSkullNodes),
+              parts = built.part_set(kHeadParts);
+    if (skull < 0 || parts < 0) return;
+    const Inertia inertia = inertia_of_parts(built.model, built.part_sets[parts].second);
+    head_.emplace(built.model, built.model.mesh.node_sets[skull].nodes,
+                  Pose{Quat::Identity(), inertia.com});
+    file_.open(path);
+    file_ << "time_s,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s\n";
+  }
+  /// Positions at the state's time, velocities of half a step before.
+  void add(const State& state) {
+    if (!head_) return;
+    const HeadSample h = head_->sample(state, 0, {}, 1);
+    const Vec3 &p = h.X_WH.p, &v = h.V_WH.v, &w = h.V_WH.w;
+    fmt::print(file_,
+               "{:.9g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}\n",
+               state.time, p.x(), p.y(), p.z(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z());
+  }
+
+ private:
+  std::optional<HeadMotion> head_;
   std::ofstream file_;
 };
 
@@ -122,6 +153,7 @@ SolveResult solve_deck(const SolveRequest& request) {
   FieldWriter fields(model, request.folder / "fields");
   EnergyHistory history(request.folder / "energies.csv");
   HistoryWriter details(model, built.histories, request.folder, scratch);
+  HeadHistory head(built, request.folder / "head.csv");
   Clock field_clock(built.field_interval > 0 ? built.field_interval : end / kDefaultFrames,
                     state.time);
   Clock history_clock(built.history_interval > 0 ? built.history_interval : end / kDefaultHistory,
@@ -148,9 +180,12 @@ SolveResult solve_deck(const SolveRequest& request) {
     }
     // No step is cut short at the end: a run that goes on from its restart file then takes the same
     // steps as one that was never stopped.
-    const double stable = model.settings.step_scale * report.stable_step;
+    const double stable = next_step(model, state, report);
     const double dt = std::isfinite(stable) ? stable : end / kDefaultHistory;
-    if (detail_clock.strikes(state.time)) details.write(state, scratch);
+    if (detail_clock.strikes(state.time)) {
+      details.write(state, scratch);
+      head.add(state);
+    }
     for (std::size_t b = 0; b < model.bodies.size(); ++b)
       scratch.body_command[b] = state.bodies[b].V_WB;
     move(model, state, scratch, dt);
@@ -164,6 +199,7 @@ SolveResult solve_deck(const SolveRequest& request) {
   }
   fields.write(state);
   history.add(state);
+  head.add(state);
   write_restart(state, request.folder / "restart.bin");
   SolveResult result{state.time, state.step, state.energies, 0, model.total_mass()};
   for (double m : model.added_mass) result.added_mass += m;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/error.h"
+#include "fe_node/guided_body.h"
 
 namespace crosswalk::fe {
 namespace {
@@ -256,20 +257,6 @@ Vec3 gravity_at(const Model& model, double time) {
   return sum;
 }
 
-/// Velocity over the next step of what follows a curve.
-template <class Guide>
-double guided_velocity(const Guide& guide, double time, double dt, double before) {
-  switch (guide.kind) {
-    case MotionKind::Velocity:
-      return guide.scale * guide.curve.value(time + 0.5 * dt);
-    case MotionKind::Acceleration:
-      return before + guide.scale * guide.curve.value(time) * dt;
-    case MotionKind::Displacement:
-      return guide.scale * (guide.curve.value(time + dt) - guide.curve.value(time)) / dt;
-  }
-  return 0;
-}
-
 /// Adds the reactions that make constrained nodes do what they must; the work of guided ones is
 /// booked.
 void apply_constraints(const Model& model, State& state, Scratch& scratch, const Kick& kick,
@@ -367,32 +354,6 @@ void move_nodes_of(const RigidBody& body, const BodyState& moved, double dt, Sta
   }
 }
 
-/// The wrench on a free body with the reactions that make its guided directions follow their
-/// curves.
-Wrench guided_wrench(const Model& model, State& state, int body, Wrench wrench, const Vec3& gravity,
-                     double kick, double dt) {
-  const Inertia& inertia = model.bodies[body].inertia;
-  const BodyState& now = state.bodies[body];
-  for (const GuidedBody& guide : model.guided_bodies) {
-    if (guide.body != body) continue;
-    const int axis = guide.axis % 3;
-    const bool is_turn = guide.axis >= 3;
-    const double before = is_turn ? now.V_WB.w[axis] : now.V_WB.v[axis];
-    const double wanted = guided_velocity(guide, state.time, dt, before);
-    double reaction = 0;
-    if (is_turn) {
-      const Vec3 L = angular_momentum(model.bodies[body], now.X_WB, wanted * Vec3::Unit(axis));
-      reaction = (L[axis] - now.angular_momentum[axis]) / kick - wrench.tau[axis];
-      wrench.tau[axis] += reaction;
-    } else {
-      reaction = inertia.mass * ((wanted - before) / kick - gravity[axis]) - wrench.f[axis];
-      wrench.f[axis] += reaction;
-    }
-    state.energies.external_work += 0.5 * kick * reaction * (before + wanted);
-  }
-  return wrench;
-}
-
 void move_bodies(const Model& model, State& state, Scratch& scratch, double kick, double dt) {
   const Vec3 gravity = gravity_at(model, state.time);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -409,6 +370,9 @@ void move_bodies(const Model& model, State& state, Scratch& scratch, double kick
                                 0.25 * (momentum + moved.angular_momentum).dot(moved.V_WB.w);
       state.energies.external_work +=
           0.5 * kick * body.inertia.mass * gravity.dot(before.v + moved.V_WB.v);
+    } else if (body.role == BodyRole::Prescribed) {
+      move_prescribed_body(model, state, static_cast<int>(b), scratch.body_wrench[b], gravity, kick,
+                           dt);
     } else {
       move_with_twist(scratch.body_command[b], dt, moved);
       const Twist mean{0.5 * (before.v + moved.V_WB.v), 0.5 * (before.w + moved.V_WB.w)};
@@ -508,6 +472,12 @@ StepReport advance_step(const Model& model, State& state, Scratch& scratch, doub
     scratch.body_command[b] = state.bodies[b].V_WB;
   move(model, state, scratch, dt);
   return report;
+}
+
+double next_step(const Model& model, const State& state, const StepReport& report) {
+  const double step = model.settings.step_scale * report.stable_step;
+  if (model.settings.step_limit.empty()) return step;
+  return std::min(step, model.settings.step_limit.value(state.time));
 }
 
 double initial_stable_step(const Model& model) {

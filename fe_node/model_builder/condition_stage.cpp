@@ -1,6 +1,7 @@
 // Fixed and prescribed nodes, initial velocities, loads, masses and damping.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,7 @@ class ConditionStage {
     for (const Spc& spc : c_.deck.spcs) add_spc(spc);
     merge_fixed();
     for (const PrescribedMotion& motion : c_.deck.prescribed_motions) add_motion(motion);
+    find_prescribed_bodies();
     add_velocities();
     for (const LoadNode& load : c_.deck.nodal_loads) add_load(load);
     for (const LoadBody& load : c_.deck.body_loads) add_body_load(load);
@@ -133,6 +135,14 @@ class ConditionStage {
     for (int n : targets(target, motion.target, motion.source, who))
       if (body_of_node_[n] < 0) guide.nodes.push_back(n);
     c_.model().guided.push_back(guide);
+  }
+
+  /// A body whose six directions all follow curves moves by them alone.
+  void find_prescribed_bodies() {
+    std::vector<std::set<int>> axes(c_.model().bodies.size());
+    for (const GuidedBody& guide : c_.model().guided_bodies) axes[guide.body].insert(guide.axis);
+    for (std::size_t b = 0; b < axes.size(); ++b)
+      if (axes[b].size() == 6) c_.model().bodies[b].role = BodyRole::Prescribed;
   }
 
   void add_velocities() {

@@ -51,7 +51,13 @@ void read_controls(BuildContext& c) {
   const Control& control = c.deck.control;
   SolverSettings& settings = c.model().settings;
   if (control.end_time) c.built.end_time = *control.end_time * c.units.time;
-  if (control.time_step) settings.step_scale = control.time_step->scale;
+  if (control.time_step) {
+    settings.step_scale = control.time_step->scale;
+    if (control.time_step->limit_curve.given())
+      if (const auto limit = c.curve(control.time_step->limit_curve, c.units.time, c.units.time, {},
+                                     "*CONTROL_TIMESTEP field LCTM"))
+        settings.step_limit = *limit;
+  }
   c.built.field_interval = interval_of(c.deck, "DATABASE_BINARY_D3PLOT", c.units.time);
   c.built.history_interval = interval_of(c.deck, "DATABASE_GLSTAT", c.units.time);
 }

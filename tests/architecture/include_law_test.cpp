@@ -59,6 +59,7 @@ int fe_layer(const fs::path& file) {
                                                     {"state", 3},
                                                     {"energy", 3},
                                                     {"force_tiles", 3},
+                                                    {"guided_body", 3},
                                                     {"sleeper", 3},
                                                     {"history_requests", 3},
                                                     {"solver", 4},

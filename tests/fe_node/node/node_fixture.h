@@ -38,8 +38,8 @@ class HeadSink : public RecordSink {
 class DrivenNode {
  public:
   DrivenNode(const FeConfig& config, const Twist& acceleration, const Twist& of_car,
-             const Vec3& car = Vec3(0, -5, 0))
-      : node(config, 1, {}), acceleration_(acceleration) {
+             const Vec3& car = Vec3(0, -5, 0), const std::filesystem::path& folder = {})
+      : node(config, 1, folder), acceleration_(acceleration) {
     std::vector<InterfaceBody> bodies = node.interface_bodies();
     for (InterfaceBody& body : bodies) {
       const int segment = config.body.find_segment(body.name);

@@ -238,7 +238,10 @@ std::string FeNode::description() const {
     triangles.push_back({corner(0), corner(1), corner(2)});
     if (!facet.is_triangle()) triangles.push_back({corner(0), corner(2), corner(3)});
   }
-  const json text = {{"regions", tissue_.names()},
+  double mass = node_.built.model.total_mass();
+  for (double added : node_.built.model.added_mass) mass -= added;
+  const json text = {{"mass_kg", mass},
+                     {"regions", tissue_.names()},
                      {"parts", parts},
                      {"head_surface", {{"vertices_m", vertices}, {"triangles", triangles}}}};
   return text.dump();

@@ -8,8 +8,9 @@
 namespace crosswalk::fe {
 namespace {
 
-/// Larger tiles share fewer nodes; the rows of 256 bricks, 14 kB, still fit the nearest cache.
-constexpr int kElementsPerTile = 256;
+/// Larger tiles share fewer nodes; the rows of 256 bricks, 14 kB, still fit the nearest cache. Of
+/// elements with many points a tile takes fewer, so that the last one keeps no thread waiting long.
+constexpr int kPointsPerTile = 256;
 
 using Row = Eigen::Map<Eigen::Vector4d, Eigen::Aligned32>;
 using ConstRow = Eigen::Map<const Eigen::Vector4d, Eigen::Aligned32>;
@@ -50,14 +51,14 @@ NodeRows table_of(const std::vector<std::pair<int, std::uint32_t>>& pairs, int n
 
 ForceTiles make_force_tiles(std::span<const std::unique_ptr<const ElementBlock>> blocks,
                             int node_count) {
-  constexpr int kGroups = kElementsPerTile / kLanes;
   ForceTiles out;
   std::vector<std::pair<int, std::uint32_t>> force_rows, moment_rows;
   std::vector<int> seen(node_count, -1);
   for (int b = 0; b < static_cast<int>(blocks.size()); ++b) {
     const ElementBlock& block = *blocks[b];
-    for (int first = 0; first < block.group_count(); first += kGroups) {
-      ForceTile tile{b, first, std::min(first + kGroups, block.group_count())};
+    const int groups = std::max(1, kPointsPerTile / kLanes / block.points());
+    for (int first = 0; first < block.group_count(); first += groups) {
+      ForceTile tile{b, first, std::min(first + groups, block.group_count())};
       tile.call = static_cast<int>(out.arrivals_begin.size());
       const std::vector<int> nodes =
           nodes_of(block, tile, static_cast<int>(out.tiles.size()), seen, out);

@@ -69,7 +69,8 @@ void element_forces(const Model& model, State& state, Scratch& scratch) {
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     if (model.blocks[b]->has_neighbours() && !(asleep && model.sleeper->blocks[b]))
       model.blocks[b]->prepare(context, state.history[b]);
-#pragma omp parallel for schedule(static) num_threads(scratch.threads)
+  // Shared out as threads come: elements differ in cost, and every tile has rows of its own.
+#pragma omp parallel for schedule(dynamic) num_threads(scratch.threads)
   for (int t = 0; t < count; ++t) {
     const ForceTile& tile = model.tiles.tiles[t];
     scratch.tile_sums[t] = BlockSums{};

@@ -100,7 +100,7 @@ void quality_rows(Table& t, const Summary& s) {
       t.row("interface audit drift", fmt::format("{:.3f} %", s.coupling->drift_percent),
             fmt::format("of {:.3g} J exchanged, limit 1 %", s.coupling->exchanged));
       t.row("coupling error",
-            fmt::format("{:.2g} N, {:.2g} mm", s.coupling->owed_force, s.coupling->gap_mm),
+            fmt::format("{:.3g} N, {:.2g} mm", s.coupling->owed_force, s.coupling->gap_mm),
             fmt::format("largest force one window late, largest gap; {:.2g} J lost or gained",
                         s.coupling->drift));
     }

@@ -93,6 +93,8 @@ class ElementBlock {
   }
   /// Doubles of a corner force array of so many groups.
   std::size_t corner_array_size(int groups) const { return corner_slot(groups, 0, 0); }
+  /// Points at which an element asks its law: the measure of its cost when work is shared out.
+  virtual int points() const { return 1; }
   /// True when corners also carry moments (shells, beams).
   virtual bool has_moments() const { return false; }
   /// Numbers per lane group in the history array (a multiple of kLanes).

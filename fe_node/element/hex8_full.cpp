@@ -81,6 +81,7 @@ class FullHexBlock final : public ElementBlock {
     return groups_[element / kLanes].volume[element % kLanes];
   }
   double density() const override { return law_.density; }
+  int points() const override { return kPoints; }
   bool is_alive(std::span<const double> history, int element) const override {
     const double* h = history.data() + std::size_t(history_per_group()) * (element / kLanes);
     return h[kPoints * kLanes + element % kLanes] > 0;

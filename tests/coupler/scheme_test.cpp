@@ -151,7 +151,7 @@ TEST(Mic, WindowLengthsFromTwoToAHundredMicrosecondsGiveTheSameMotion) {
 }
 
 // Without acceleration the iteration contracts by k H^2 / (6 M): 2 for the window, 1/2 for its
-// half. A wrench that is constant over 50 us of a period of 173 us swings the energy by a third,
+// half. A wrench that is constant over 50 us of a period of 173 us swings the energy by a half,
 // and must not let it grow.
 TEST(Implicit, DoesAWindowInPartsThatDoesNotConvergeAsAWhole) {
   const toy::FePoint point{.mass = 10, .stiffness = 1.2e9, .x = 1e-3};
@@ -169,19 +169,19 @@ TEST(Implicit, DoesAWindowInPartsThatDoesNotConvergeAsAWhole) {
                                 .anderson_depth = 0};
   const double energy = 0.5 * point.stiffness * point.x * point.x;
   double early = 0, late = 0;
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 400; ++i) {
     const WindowResult result = advance_window(settings, state, 100000, mb_link, fe_link);
     EXPECT_GT(result.parts, 1);
     EXPECT_EQ(result.id.window, i);
     const double now = result.mb.kinetic + result.fe.kinetic + result.fe.internal;
-    (i < 25 ? early : late) = std::max(i < 25 ? early : late, now);
+    (i < 200 ? early : late) = std::max(i < 200 ? early : late, now);
     // Momentum, the pending impulse included.
     const double scale = 10 * std::abs(fe.now().v) + std::abs(mb.now().v);
     EXPECT_NEAR(mb.now().v + 10 * fe.now().v + state.carry[0][0], 0, 1e-9 * scale);
   }
-  EXPECT_EQ(state.window, 50);
-  EXPECT_LT(early, 1.4 * energy);
-  EXPECT_LT(late, 1.001 * early);
+  EXPECT_EQ(state.window, 400);
+  EXPECT_LT(early, 1.6 * energy);
+  EXPECT_LT(late, 1.01 * early);
 }
 
 TEST(Implicit, RefusesToGoOnWithoutConvergence) {

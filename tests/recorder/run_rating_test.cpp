@@ -149,14 +149,16 @@ TEST(RateCommand, FoldersInPlaceOfFilesAreAnError) {
 }
 
 TEST(RateCommand, PrintsTheFieldsOfTheCoraVectors) {
-  for (const nlohmann::json& item : expected("cora")["cases"]) {
+  const nlohmann::json cases = expected("cora")["cases"];
+  for (const nlohmann::json& item : cases) {
     for (const nlohmann::json& evaluation : item["evaluations"])
       expect_printed(request_of("cora", item, evaluation["parameters"]), evaluation);
   }
 }
 
 TEST(RateCommand, PrintsTheFieldsOfTheIsoVectors) {
-  for (const nlohmann::json& item : expected("iso18571")["cases"])
+  const nlohmann::json cases = expected("iso18571")["cases"];
+  for (const nlohmann::json& item : cases)
     expect_printed(request_of("iso18571", item, item.value("parameters", nlohmann::json::object())),
                    item);
 }

@@ -62,7 +62,7 @@ TEST(ChannelCharts, AccelerationIsShownInStandardGravity) {
 }
 
 TEST(ChannelCharts, ChannelsWithoutAPlaceComeLastAndFolded) {
-  const ChartGroup& last = three_sets().back();
+  const ChartGroup last = three_sets().back();
   EXPECT_TRUE(last.is_folded);
   EXPECT_EQ(last.charts.size(), 2U);
 }

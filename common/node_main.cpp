@@ -8,11 +8,11 @@
 #include <optional>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 #include <omp.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include "common/error_object.h"
 #include "common/interrupt.h"
 #include "common/log.h"
 #include "common/protocol.h"
@@ -88,8 +88,7 @@ int usage_error(CLI::App& app, const CLI::ParseError& error,
                 const std::vector<std::string>& command) {
   const bool is_json = std::find(command.begin(), command.end(), "--json") != command.end();
   if (is_json && error.get_exit_code() != 0) {
-    const nlohmann::ordered_json object = {{"error", "usage"}, {"message", error.what()}};
-    std::cout << object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+    std::cout << error_object("usage", error.what()) << "\n";
     return static_cast<int>(ExitCode::UserError);
   }
   return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::UserError);

@@ -2,8 +2,8 @@
 #include <exception>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "common/error_object.h"
 #include "recorder/commands/commands.h"
 
 namespace crosswalk::recording {
@@ -12,8 +12,7 @@ namespace {
 
 ExitCode fail(OutputForm form, std::string_view code, const std::string& message) {
   if (form == OutputForm::Json) {
-    const nlohmann::ordered_json object = {{"error", code}, {"message", message}};
-    fmt::print("{}\n", object.dump(1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", error_object(code, message));
   } else {
     fmt::print(stderr, "error ({}): {}\n", code, message);
   }

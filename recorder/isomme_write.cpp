@@ -18,6 +18,32 @@ constexpr std::size_t kKeyWidth = 28;
 constexpr std::size_t kLineWidth = 80;
 constexpr const char* kNoValue = "NOVALUE";
 
+/// What the head of a .mme file tells, in its order; missing values are written as NOVALUE.
+constexpr const char* kTestKeys[] = {"Laboratory name",
+                                     "Laboratory contact name",
+                                     "Laboratory contact phone",
+                                     "Laboratory contact fax",
+                                     "Laboratory contact email",
+                                     "Laboratory test ref. number",
+                                     "Customer name",
+                                     "Customer test ref. number",
+                                     "Customer project ref. number",
+                                     "Customer order number",
+                                     "Customer cost unit",
+                                     "Customer test engineer name",
+                                     "Customer test engineer phone",
+                                     "Customer test engineer fax",
+                                     "Customer test engineer email",
+                                     "Title",
+                                     "Medium No./number of media",
+                                     "Timestamp",
+                                     "Type of the test",
+                                     "Subtype of the test",
+                                     "Regulation",
+                                     "Reference temperature",
+                                     "Relative air humidity",
+                                     "Date of the test"};
+
 class Lines {
  public:
   /// A comment too long for one line goes on in further ones; any other value is cut.
@@ -136,15 +162,25 @@ void write_channel(const fs::path& path, const MmeChannel& c) {
   lines.save(path);
 }
 
+void write_test(const fs::path& path, const MmeTest& test) {
+  Lines lines;
+  lines.header("Data format edition number", "1.6");
+  const std::string own = "Laboratory test ref. number";
+  for (const char* key : kTestKeys)
+    lines.header(key, key == own ? test.name : value_of(test.header, key).value_or(""));
+  for (const auto& [key, value] : test.header) {
+    const bool is_written =
+        std::find(std::begin(kTestKeys), std::end(kTestKeys), key) != std::end(kTestKeys);
+    if (!is_written) lines.header(key, value);
+  }
+  lines.save(path);
+}
+
 }  // namespace
 
 void write_isomme(const fs::path& folder, const MmeTest& test) {
   fs::create_directories(folder / "Channel");
-  Lines mme;
-  mme.header("Data format edition number", "1.6");
-  mme.header("Laboratory test ref. number", test.name);
-  for (const auto& [key, value] : test.header) mme.header(key, value);
-  mme.save(folder / (test.name + ".mme"));
+  write_test(folder / (test.name + ".mme"), test);
   Lines chn;
   chn.header("Instrumentation standard", "ISO 6487 (2015)");
   chn.header("Number of channels", std::to_string(test.channels.size()));

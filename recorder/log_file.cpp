@@ -120,6 +120,13 @@ void LogWriter::sync() {
   if (fsync(fileno(file_.get())) != 0) fail(path_, "room on the disk", std::strerror(errno));
 }
 
+bool is_event_log(const std::filesystem::path& path) {
+  const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  std::array<std::byte, 4> begin{};
+  return file != nullptr && std::fread(begin.data(), 1, begin.size(), file.get()) == begin.size() &&
+         take(begin.data(), 4) == kSync;
+}
+
 LogExtent read_log(const std::filesystem::path& path,
                    const std::function<void(const LogEvent&)>& handler) {
   const File file(std::fopen(path.c_str(), "rb"), &std::fclose);

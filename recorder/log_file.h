@@ -66,6 +66,9 @@ class LogFollower {
   long at_ = 0;
 };
 
+/// Whether a file starts as an event log does; false for folders and what cannot be read.
+bool is_event_log(const std::filesystem::path& path);
+
 /// Calls `handler` for every whole event, in file order; damaged stretches are skipped to the next
 /// sync word and counted as cut. Throws UserError when the file cannot be read.
 LogExtent read_log(const std::filesystem::path& path,

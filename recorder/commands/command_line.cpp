@@ -60,8 +60,9 @@ Action define_rate(CLI::App& app) {
 
 Action define_injury(CLI::App& app) {
   auto parsed = std::make_shared<Parsed<InjuryRequest>>();
-  app.add_option("source", parsed->request.source,
-                 "CSV of head signals (columns t,ax,ay,az and more), a run, or an ISO-MME test")
+  app.add_option(
+         "source", parsed->request.source,
+         "CSV of head signals (columns t,ax,ay,az and more), a run, a log, or an ISO-MME test")
       ->required();
   app.add_flag("--no-filter", parsed->request.is_filtered, "the signals are filtered already");
   app.add_flag("--json", parsed->is_json, "one JSON object in full precision");

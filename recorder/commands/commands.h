@@ -28,7 +28,7 @@ struct RateRequest {
 };
 
 struct InjuryRequest {
-  std::filesystem::path source;  ///< CSV of signals, or a run folder
+  std::filesystem::path source;  ///< CSV of signals, a run folder, an event log, or an ISO-MME test
   bool is_filtered = false;      ///< the signals are filtered already
 };
 
@@ -96,8 +96,8 @@ ExitCode bench(const BenchRequest& request);
 /// The JSON object of parameters in a file; an empty one when there is no file. Throws SignalError.
 nlohmann::json read_parameters(const std::filesystem::path& path);
 
-/// channels.csv of a run folder, made from its log when it is not there; or the channels of an
-/// ISO-MME test.
+/// channels.csv of a run folder, made from its log when it is not there; or the channels of a bare
+/// event log, or of an ISO-MME test.
 std::vector<Channel> channels_of_run(const std::filesystem::path& run);
 
 /// Runs `command`; SignalError and UserError become the object or line above and exit code 2.

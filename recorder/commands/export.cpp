@@ -30,6 +30,16 @@ std::string test_name(const fs::path& run) {
   return name.empty() ? "RUN" : name;
 }
 
+/// Speed of the car at the start, m/s as text; empty when the run does not tell it.
+std::string car_speed(const std::vector<Channel>& channels) {
+  for (const Channel& c : channels) {
+    if (c.name != "buck_velocity_y") continue;
+    const Series present = c.present();
+    return present.y.empty() ? "" : fmt::format("{:.6g}", present.y.front());
+  }
+  return {};
+}
+
 MmeTest as_isomme(const fs::path& run, const std::vector<Channel>& channels) {
   MmeTest test = mme_test(test_name(run), channels,
                           {{"Title", "Pedestrian head impact, simulation"},
@@ -38,6 +48,7 @@ MmeTest as_isomme(const fs::path& run, const std::vector<Channel>& channels) {
                            {"Number of test objects", "2"},
                            {"Name of test object 1", "Car"},
                            {"Class of test object 1", "1"},
+                           {"Velocity test object 1", car_speed(channels)},
                            {"Name of test object 2", "Pedestrian"},
                            {"Class of test object 2", "D"},
                            {"Comments", "axes 1 2 3: subject's front, car travel, up"}});
@@ -83,7 +94,12 @@ ExitCode export_run(const ExportRequest& request) {
     write_isomme(out / test.name, test);
     fmt::print("{} channels in {}\n", test.channels.size(), (out / test.name).string());
   } else {
-    write_channels_csv(out / "channels.csv", channels, {});
+    const fs::path kept = RunDirectory(request.run).channels(), file = out / "channels.csv";
+    if (!fs::exists(kept)) {
+      write_channels_csv(file, channels, {});
+    } else if (!fs::exists(file) || !fs::equivalent(kept, file)) {
+      fs::copy_file(kept, file, fs::copy_options::overwrite_existing);
+    }
     fmt::print("{} channels in {}\n", channels.size(), (out / "channels.csv").string());
   }
   return ExitCode::Done;

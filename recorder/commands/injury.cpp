@@ -8,6 +8,7 @@
 #include "recorder/csv_table.h"
 #include "recorder/head_motion.h"
 #include "recorder/isomme.h"
+#include "recorder/log_file.h"
 #include "recorder/scoring/score_json.h"
 
 namespace crosswalk::recording {
@@ -68,12 +69,15 @@ HeadSignals signals_of(const MmeTest& test, bool is_filtered) {
   return signals;
 }
 
+/// A run's channels are filtered already, at the rate they were recorded with.
+bool is_run(const std::filesystem::path& source) {
+  return std::filesystem::is_directory(source) || is_event_log(source);
+}
+
 HeadSignals read_signals(const InjuryRequest& request) {
   if (is_isomme(request.source))
     return signals_of(read_isomme(request.source), request.is_filtered);
-  // A run's channels are filtered already, at the rate they were recorded with.
-  if (std::filesystem::is_directory(request.source))
-    return head_signals(channels_of_run(request.source));
+  if (is_run(request.source)) return head_signals(channels_of_run(request.source));
   const HeadSignals signals = signals_of(read_csv(request.source));
   return request.is_filtered ? signals : filtered(signals);
 }
@@ -85,7 +89,7 @@ const char* filter_text(const InjuryRequest& request) {
                ? "as in the file"
                : "as in the file; CFC 1000 linear, CFC 60 angular (ISO 6487) where it has none";
   }
-  const bool is_raw = !std::filesystem::is_directory(request.source) && request.is_filtered;
+  const bool is_raw = !is_run(request.source) && request.is_filtered;
   return is_raw ? "none" : "CFC 1000 linear, CFC 60 angular (ISO 6487)";
 }
 

@@ -100,7 +100,7 @@ json read_parameters(const std::filesystem::path& path) {
   }
   try {
     return json::parse(in);
-  } catch (const json::parse_error& error) {
+  } catch (const json::exception& error) {  // no JSON, or a number beyond a double
     throw SignalError(SignalFault::BadParameter, path.string() + ": " + error.what());
   }
 }

@@ -9,6 +9,7 @@
 #include "recorder/csv_table.h"
 #include "recorder/export_csv.h"
 #include "recorder/isomme.h"
+#include "recorder/log_file.h"
 #include "recorder/run_rating.h"
 #include "recorder/scoring/score_json.h"
 
@@ -19,7 +20,12 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string scenario_of(const fs::path& run) {
-  const CsvTable table = read_csv(RunDirectory(run).channels());
+  const RunDirectory directory(run);
+  if (!fs::exists(directory.channels())) {
+    const RunRecord record = read_run_record(is_event_log(run) ? run : directory.signals());
+    return record.manifest ? record.manifest->scenario : "";
+  }
+  const CsvTable table = read_csv(directory.channels());
   const auto found = table.comments.find("scenario");
   return found == table.comments.end() ? std::string{} : found->second;
 }
@@ -72,6 +78,7 @@ void print_table(const std::vector<SignalRating>& ratings, RatingMethod method) 
 
 std::vector<Channel> channels_of_run(const fs::path& run) {
   if (is_isomme(run)) return channels_of(read_isomme(run));
+  if (is_event_log(run)) return analyze_log(run).channels.channels;
   const RunDirectory directory(run);
   if (fs::exists(directory.channels())) return read_channels_csv(directory.channels());
   return analyze_log(directory.signals()).channels.channels;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -101,6 +102,17 @@ TEST_F(IsoMme, WhatIsWrittenComesBack) {
   }
   EXPECT_DOUBLE_EQ(back.channels[1].values[3], 0.004);  // mm to m
   EXPECT_EQ(value_of(back.channels[0].header, "Channel frequency class"), "1000");
+}
+
+TEST_F(IsoMme, EveryKeyOfTheTestIsWrittenOnce) {
+  write_isomme(folder, sample());
+  std::map<std::string, std::string> header;
+  for (const auto& [key, value] : read_isomme(folder).header) {
+    EXPECT_TRUE(header.emplace(key, value).second) << key;
+  }
+  EXPECT_EQ(header.at("Laboratory test ref. number"), "TEST01");
+  EXPECT_EQ(header.at("Title"), "a run");
+  EXPECT_EQ(header.at("Customer name"), "NOVALUE");
 }
 
 TEST_F(IsoMme, LinesEndInCrLfAndStayWithin80Characters) {

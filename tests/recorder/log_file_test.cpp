@@ -34,6 +34,15 @@ struct LogFileTest : ::testing::Test {
   }
 };
 
+TEST_F(LogFileTest, IsKnownByItsFirstBytes) {
+  write(1);
+  EXPECT_TRUE(is_event_log(path));
+  EXPECT_FALSE(is_event_log(path.parent_path()));
+  EXPECT_FALSE(is_event_log("/nowhere"));
+  std::ofstream(path) << "t,value\n0,1\n";
+  EXPECT_FALSE(is_event_log(path));
+}
+
 TEST_F(LogFileTest, EventsComeBackAsWritten) {
   write(20);
   LogExtent extent;

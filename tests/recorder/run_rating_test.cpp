@@ -148,6 +148,18 @@ TEST(RateCommand, FoldersInPlaceOfFilesAreAnError) {
   EXPECT_EQ(p.json["error"], "input");
 }
 
+TEST(RateCommand, ParametersThatCannotBeReadAreBad) {
+  RateRequest request{"cora", {vector_folder("cora") / "identical.csv"}, {}, {}, {}, {}};
+  request.parameters = fs::temp_directory_path() / "cw_rate_broken.json";
+  for (const char* text : {"{bad", "[1]", "{\"a_0\": 1e400}", "{\"a_0\": \"x\"}", "{\"foo\": 1}"}) {
+    std::ofstream(request.parameters) << text;
+    const Printed p = printed([&] { return rate(request, OutputForm::Json); });
+    EXPECT_EQ(p.code, ExitCode::UserError) << text;
+    EXPECT_EQ(p.json["error"], "bad_parameter") << text;
+  }
+  fs::remove(request.parameters);
+}
+
 TEST(RateCommand, PrintsTheFieldsOfTheCoraVectors) {
   const nlohmann::json cases = expected("cora")["cases"];
   for (const nlohmann::json& item : cases) {

@@ -350,6 +350,8 @@ ReportInput comparison_input(const std::vector<ComparedRun>& runs,
       input.warnings.push_back(labels[i] + ": " + warning);
     input.provenance.emplace_back(labels[i], runs[i].name + ", run id " + s.manifest.run_id);
   }
+  for (const std::string& scenario : distinct(runs, scenario_of))
+    add_reference_curves(input, scenario);
   input.scene = runs.front().scene;
   const auto& contact = runs.front().analysis.summary.head_contact;
   if (contact) input.marks.push_back({contact->time, "head contact"});

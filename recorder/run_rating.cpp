@@ -1,5 +1,6 @@
 #include "recorder/run_rating.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -46,7 +47,23 @@ SignalRating rate_signal(const RatedSignal& signal, const std::string& reference
   return rating;
 }
 
+bool is_of(const ReferenceCurve& curve, const RatedSignal& signal) {
+  return curve.channel == signal.channel || set_name(curve.channel) == signal.channel;
+}
+
 }  // namespace
+
+std::vector<RatedSignal> with_further_curves(std::vector<RatedSignal> set,
+                                             const std::vector<ReferenceCurve>& curves) {
+  for (const ReferenceCurve& curve : curves) {
+    const auto is_like = [&curve](const RatedSignal& signal) { return is_of(curve, signal); };
+    if (std::any_of(set.begin(), set.end(), is_like)) continue;
+    std::string label = curve.channel;
+    std::replace(label.begin(), label.end(), '_', ' ');
+    set.push_back({curve.channel, label, 0});
+  }
+  return set;
+}
 
 std::vector<SignalRating> rate_against_curves(const std::vector<RatedSignal>& set,
                                               const std::vector<Channel>& run,
@@ -56,10 +73,7 @@ std::vector<SignalRating> rate_against_curves(const std::vector<RatedSignal>& se
   for (const RatedSignal& signal : set) {
     for (const ReferenceCurve& curve : curves) {
       const Channel* channel = find(run, curve.channel);
-      if (channel == nullptr ||
-          (curve.channel != signal.channel && set_name(curve.channel) != signal.channel)) {
-        continue;
-      }
+      if (channel == nullptr || !is_of(curve, signal)) continue;
       ratings.push_back(rate_signal(signal, curve.source, curve.series, curve.unit, curve.sigma,
                                     *channel, parameters));
     }

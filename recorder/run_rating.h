@@ -30,6 +30,10 @@ struct RatingParameters {
   Iso18571Parameters iso;
 };
 
+/// The set and, with weight 0, every channel that has a curve but is not in it: rated, but no part
+/// of the mean.
+std::vector<RatedSignal> with_further_curves(std::vector<RatedSignal> set,
+                                             const std::vector<ReferenceCurve>& curves);
 /// Every signal of the set for which both sides have data.
 std::vector<SignalRating> rate_against_curves(const std::vector<RatedSignal>& set,
                                               const std::vector<Channel>& run,

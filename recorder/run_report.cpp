@@ -193,18 +193,6 @@ Signal signal_of(const Channel& channel) {
   return signal;
 }
 
-/// Measured curves of the test, when somebody has put them there.
-void add_reference_curves(ReportInput& input, const std::string& scenario) {
-  const auto reference = reference_data(scenario);
-  if (!reference || reference->curves.empty()) return;
-  CurveSet set{"test " + reference->test, CurveOrigin::Reference, {}};
-  for (const ReferenceCurve& curve : reference->curves) {
-    set.signals.push_back(
-        {curve.channel, curve.unit, curve.source, curve.series.t, curve.series.y});
-  }
-  input.curves.push_back(std::move(set));
-}
-
 }  // namespace
 
 std::string mode_of(const Summary& summary) { return summary.manifest.mode(); }
@@ -236,6 +224,17 @@ ReportInput report_input(const Analysis& analysis, const RunRecord& record,
   input.estimates = estimates_of(s, mb);
   add_reference_curves(input, s.manifest.scenario);
   return input;
+}
+
+void add_reference_curves(ReportInput& input, const std::string& scenario) {
+  const auto reference = reference_data(scenario);
+  if (!reference || reference->curves.empty()) return;
+  CurveSet set{"test " + scenario, CurveOrigin::Reference, {}};
+  for (const ReferenceCurve& curve : reference->curves) {
+    set.signals.push_back(
+        {curve.channel, curve.unit, curve.source, curve.series.t, curve.series.y});
+  }
+  input.curves.push_back(std::move(set));
 }
 
 void overlay(ReportInput& input, const Analysis& other, const std::string& label) {

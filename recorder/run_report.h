@@ -18,6 +18,9 @@ std::string mode_of(const Summary& summary);
 ReportInput report_input(const Analysis& analysis, const RunRecord& record,
                          const RunDirectory& directory);
 
+/// Adds the measured curves of a test, when somebody has put them there.
+void add_reference_curves(ReportInput& input, const std::string& scenario);
+
 /// Adds another run's curves to the charts.
 void overlay(ReportInput& input, const Analysis& other, const std::string& label);
 

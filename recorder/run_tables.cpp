@@ -25,7 +25,7 @@ ReportTable cora_table(const Summary& s) {
                     "Over the whole common time. " + parameter_text(CoraParameters{}) +
                         ". Lag below zero: the simulation is late.",
                     {"signal", "C", "corridor C1", "cross-correlation C2", "shape V", "size G",
-                     "phase P", "lag [ms]", "reference"},
+                     "phase P", "lag [ms]", "rated [ms]", "reference"},
                     {}};
   for (const SignalRating& r : s.ratings) {
     std::vector<std::string> row{r.signal.label};
@@ -33,6 +33,7 @@ ReportTable cora_table(const Summary& s) {
       for (const double v : {r.cora->C, r.cora->C1, r.cora->C2, r.cora->V, r.cora->G, r.cora->P})
         row.push_back(three(v));
       row.push_back(fmt::format("{:+.2f}", 1e3 * r.cora->delta));
+      row.push_back(fmt::format("{:.0f} – {:.0f}", 1e3 * r.cora->t_min, 1e3 * r.cora->t_max));
     }
     row.resize(table.columns.size() - 1, "–");
     row.push_back(reference_text(r));
@@ -116,6 +117,9 @@ ReportTable injury_table(const Summary& s) {
   if (s.card.linear) add_linear(table, *s.card.linear);
   if (s.card.rotation) add_rotation(table, *s.card.rotation);
   if (s.card.combined) add_combined(table, *s.card.combined);
+  table.rows.push_back({"Nij, Nkm", "–", "–",
+                        "need the loads of the upper neck, which a run does not record; crosswalk "
+                        "injury takes them from a file"});
   return table;
 }
 

@@ -28,12 +28,13 @@ class Rows {
     return rows_.back();
   }
 
-  /// Holds the last row against the published or estimated band of a quantity, when there is one.
-  void hold_against_band(const std::string& quantity) {
+  /// Holds the last row against the published or estimated band of a quantity, when there is one;
+  /// `of` says of what a ratio is.
+  void hold_against_band(const std::string& quantity, const char* of = "") {
     for (const BandVerdict& v : summary_.bands) {
       if (v.band.quantity != quantity || !v.value) continue;
       VerdictRow& row = rows_.back();
-      row.band = fmt::format("{:g} – {:g} ({}{}{})", v.band.low, v.band.high, v.band.status,
+      row.band = fmt::format("{:g} – {:g}{} ({}{}{})", v.band.low, v.band.high, of, v.band.status,
                              v.band.source.empty() ? "" : ", ", v.band.source);
       row.status = v.is_inside                    ? Verdict::Good
                    : v.band.status == "published" ? Verdict::Bad
@@ -88,6 +89,7 @@ void add_impact(Rows& rows, const Summary& s) {
                                 c.relative_speed / c.buck_speed)
                   : "Just before head contact.";
   rows.hold_against_band("head_contact_speed_relative_mps");
+  rows.hold_against_band("head_contact_speed_ratio", " times the car's speed");
 }
 
 std::string risk_note(const Summary& s, const char* family, const char* level, const char* words) {

@@ -128,6 +128,55 @@ std::string outcome_of(const RunRecord& record) {
   return "complete";
 }
 
+/// Whether the run lasts until the head should have met the car; one that was asked to end before
+/// says nothing about the head.
+bool could_have_struck(const Summary& s, const ReferenceData& reference) {
+  for (const Band& band : reference.bands) {
+    if (band.quantity == "head_contact_time_ms") return 1e3 * (s.simulated - s.t0) > band.high;
+  }
+  return true;
+}
+
+/// A rating covers the common time only: said where the run ends well before a curve does.
+void warn_short_rating(Summary& s, const RunChannels& channels, const ReferenceData& reference) {
+  constexpr double kShare = 0.95;  // of the curve, that a run must cover without a word
+  double curve_end = 0, run_end = 0;
+  for (const ReferenceCurve& curve : reference.curves) {
+    const Channel* channel = channels.find(curve.channel);
+    if (channel == nullptr || channel->present().size() == 0) continue;
+    curve_end = std::max(curve_end, curve.series.t.back());
+    run_end = std::max(run_end, channel->present().t.back());
+  }
+  if (run_end >= kShare * curve_end) return;
+  s.warnings.push_back(
+      fmt::format("the run ends at {:.0f} ms, the curves of the test at {:.0f} ms: ratings cover "
+                  "the common time only",
+                  1e3 * run_end, 1e3 * curve_end));
+}
+
+void hold_against(Summary& s, const RunChannels& channels, const ReferenceData& reference) {
+  for (const std::string& fault : reference.faults)
+    s.warnings.push_back("a curve of the test is left out: " + fault);
+  for (const ReferenceCurve& curve : reference.curves) {
+    if (channels.find(curve.channel) == nullptr)
+      s.warnings.push_back("a curve of the test is left out: the run has no channel '" +
+                           curve.channel + "'");
+  }
+  const bool is_judged = s.head_contact || (s.is_complete && could_have_struck(s, reference));
+  for (const Band& band : reference.bands) {
+    if (s.manifest.has_head_alone()) break;  // the bands are those of whole pedestrians
+    BandVerdict verdict{band, is_judged ? summary_quantity(s, band.quantity) : std::nullopt, false};
+    if (verdict.value)
+      verdict.is_inside = *verdict.value >= band.low && *verdict.value <= band.high;
+    s.bands.push_back(verdict);
+  }
+  s.published = reference.scores;
+  s.published_source = reference.scores_source;
+  s.ratings = rate_against_curves(with_further_curves(rating_set({}), reference.curves),
+                                  channels.channels, reference.curves);
+  warn_short_rating(s, channels, reference);
+}
+
 void add_statements(Summary& s, const std::optional<ReferenceData>& reference) {
   if (!s.tissue.empty()) {
     s.statements.push_back(
@@ -190,23 +239,7 @@ Summary summarize(const RunRecord& record, const RunChannels& channels,
                                      1e-6 * static_cast<double>(event.t_ns) - 1e3 * s.t0,
                                      event.text));
   }
-  if (reference) {
-    for (const std::string& fault : reference->faults)
-      s.warnings.push_back("a curve of the test is left out: " + fault);
-    // A run cut short before the head met the car says nothing about the head.
-    const bool is_judged = s.is_complete || s.head_contact;
-    for (const Band& band : reference->bands) {
-      if (s.manifest.has_head_alone()) break;  // the bands are those of whole pedestrians
-      BandVerdict verdict{band, is_judged ? summary_quantity(s, band.quantity) : std::nullopt,
-                          false};
-      if (verdict.value)
-        verdict.is_inside = *verdict.value >= band.low && *verdict.value <= band.high;
-      s.bands.push_back(verdict);
-    }
-    s.published = reference->scores;
-    s.published_source = reference->scores_source;
-    s.ratings = rate_against_curves(rating_set({}), channels.channels, reference->curves);
-  }
+  if (reference) hold_against(s, channels, *reference);
   add_statements(s, reference);
   return s;
 }

@@ -28,6 +28,17 @@ std::string base64_floats(const std::vector<double>& values) {
   return base64(narrow.data(), narrow.size() * sizeof(float));
 }
 
+/// Sets whose lines look alike: curves of several tests.
+bool has_several_references(const Chart& chart) {
+  int set = -1;
+  for (const ChartCurve& curve : chart.curves) {
+    if (curve.origin != CurveOrigin::Reference) continue;
+    if (set >= 0 && curve.set != set) return true;
+    set = curve.set;
+  }
+  return false;
+}
+
 int set_count(const Chart& chart) {
   int count = 0;
   for (const ChartCurve& curve : chart.curves) count = std::max(count, curve.set + 1);
@@ -54,7 +65,7 @@ LineStyle line_style(const Chart& chart, const ChartCurve& curve) {
   if (curve.set == 0) style.width = 2.0;
   if (chart.components > 1) {
     style.symbol = curve.component;
-  } else if (set_count(chart) > static_cast<int>(kDashes.size())) {
+  } else if (set_count(chart) > static_cast<int>(kDashes.size()) || has_several_references(chart)) {
     style.symbol = curve.set;
   }
   return style;

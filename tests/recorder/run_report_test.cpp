@@ -120,6 +120,16 @@ TEST(RunReport, InjuryMetricsComeWithWindowsAndParameters) {
   for (const auto& row : tables[2].rows) EXPECT_EQ(row.size(), 4U) << row[0];
 }
 
+TEST(RunReport, SpeedIsHeldAgainstABandOfItsRatio) {
+  const RunRecord record = record_of(true);
+  Analysis analysis = analyze_record(record);
+  analysis.summary.bands = {{{"head_contact_speed_ratio", 0.9, 1.4, "estimated", "me"}, 1.0, true}};
+  const ReportInput input = report_input(analysis, record, RunDirectory("nowhere"));
+  const VerdictRow& row = row_of(input, "Head speed against the car");
+  EXPECT_EQ(row.band, "0.9 – 1.4 times the car's speed (estimated, me)");
+  EXPECT_EQ(row.status, Verdict::Good);
+}
+
 TEST(RunReport, WithoutMeasuredCurvesNothingIsRated) {
   const RunRecord record = record_of(false);
   const ReportInput input = report_input(analyze_record(record), record, RunDirectory("nowhere"));
@@ -216,6 +226,8 @@ TEST(RunCompare, OwnCurvesFillTheTableOfTheTests) {
   EXPECT_LT(speed, 0.95);
   EXPECT_NEAR(std::stod(table.rows[2][1]), (3 + speed) / 4, 1e-3);
   EXPECT_EQ(input.bars.size(), 4U);
+  ASSERT_EQ(input.curves.size(), 3U);
+  EXPECT_EQ(input.curves[2].origin, CurveOrigin::Reference);
 }
 
 TEST(RunCompare, PathGapIsTheLargestDistanceBeforeTheHeadStrikes) {

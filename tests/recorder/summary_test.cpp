@@ -89,6 +89,21 @@ TEST(Summary, BandsAreJudgedAndCurvesRated) {
   EXPECT_NEAR(s.ratings[0].iso->R, 1, 1e-9);
 }
 
+/// Until the head should have been struck nothing is said of it; after that its miss counts.
+TEST(Summary, ARunThatEndsBeforeTheHeadIsStruckIsNotJudged) {
+  RunRecord record = synthetic_record();
+  for (auto& [window, w] : record.fe) w.head_contact_force = 0;
+  ReferenceData reference;
+  reference.bands = {{"head_contact_time_ms", 105, 135, "estimated", "here"},
+                     {"HIC15", 1e5, 1e6, "estimated", "here"}};
+  const Summary early = summary_of(record, reference);
+  ASSERT_TRUE(early.is_complete);
+  EXPECT_FALSE(early.head_contact);
+  EXPECT_FALSE(early.bands[1].value);
+  reference.bands[0].high = 10;
+  EXPECT_TRUE(summary_of(record, reference).bands[1].value);
+}
+
 TEST(Summary, WithoutCurvesNoScoreIsPrinted) {
   ReferenceData reference;
   reference.folder = "scenarios/reference/v2370";
@@ -154,6 +169,34 @@ TEST(ReferenceData, ABrokenCurveIsLeftOutWithAWarning) {
   const Summary s = summary_of(synthetic_record(), data);
   EXPECT_THAT(s.warnings, testing::Contains(HasSubstr("time does not increase")));
   EXPECT_FALSE(s.ratings.empty());
+}
+
+TEST(ReferenceData, ACurveOfAnyChannelIsRatedAndOneOfNoChannelIsTold) {
+  const RunRecord record = synthetic_record();
+  const RunChannels run = extract(record);
+  const Series own = run.find("buck_velocity_y")->series();
+  ReferenceData data;
+  data.curves = {{"buck_velocity_y", "mps", own, {}, "the run itself"},
+                 {"hed_cog_y", "mm", own, {}, "a slip of the pen"}};
+  const Summary s = summarize(record, run, data);
+  ASSERT_EQ(s.ratings.size(), 1U);
+  EXPECT_EQ(s.ratings[0].signal.label, "buck velocity y");
+  EXPECT_EQ(s.ratings[0].signal.weight, 0);  // no part of the mean of the five head signals
+  EXPECT_NEAR(s.ratings[0].cora->C, 1, 1e-9);
+  EXPECT_THAT(s.warnings, testing::Contains(HasSubstr("no channel 'hed_cog_y'")));
+}
+
+TEST(ReferenceData, ARunShorterThanItsCurvesIsRatedWithAWarning) {
+  const RunRecord record = synthetic_record();
+  const RunChannels run = extract(record);
+  ReferenceData data;
+  data.curves = {{"head_cog_y", "mm", run.find("head_cog_y")->present(), {}, "the run itself"}};
+  EXPECT_THAT(summarize(record, run, data).warnings,
+              testing::Not(testing::Contains(HasSubstr("common time only"))));
+  data.curves[0].series.t.push_back(0.2);
+  data.curves[0].series.y.push_back(0);
+  EXPECT_THAT(summarize(record, run, data).warnings,
+              testing::Contains(HasSubstr("the curves of the test at 200 ms")));
 }
 
 TEST(ReferenceData, TheThreePublishedTestsAreKeptAsPrinted) {

@@ -93,6 +93,15 @@ TEST(Chart, ComponentsDifferInTheirSymbol) {
   EXPECT_NE(symbol_at(0, 0, 0).is_filled, symbol_at(4, 0, 0).is_filled);
 }
 
+TEST(Chart, CurvesOfSeveralTestsDifferInTheirSymbol) {
+  const std::vector<CurveSet> sets{synthetic::curves("run", CurveOrigin::ThisRun, 0),
+                                   synthetic::curves("test a", CurveOrigin::Reference, 0),
+                                   synthetic::curves("test b", CurveOrigin::Reference, 0)};
+  const auto groups = channel_charts(sets, {}, "first leg contact");
+  const Chart& chart = chart_of(groups, "head_y");
+  EXPECT_NE(line_style(chart, chart.curves[1]).symbol, line_style(chart, chart.curves[2]).symbol);
+}
+
 TEST(Chart, MoreRunsThanDashPatternsDifferInTheirSymbol) {
   std::vector<CurveSet> sets;
   for (int i = 0; i < 8; ++i)

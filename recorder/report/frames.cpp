@@ -11,11 +11,12 @@ namespace {
 constexpr Rgb kPaper{255, 255, 255};
 constexpr Rgb kGridLine{226, 229, 232};
 constexpr Rgb kGround{120, 126, 132};
-constexpr Rgb kMultibody{236, 178, 66};      // gold, as the seed paper draws it
-constexpr Rgb kFiniteElement{72, 138, 200};  // blue
-constexpr Rgb kCar{164, 170, 177};
+// Told apart without colour too: luma 88, 165, 207 and 228 of head, body, car and windshield.
+constexpr Rgb kMultibody{226, 158, 44};     // gold, as the seed paper draws it
+constexpr Rgb kFiniteElement{38, 98, 168};  // blue
+constexpr Rgb kCar{203, 208, 213};
 constexpr Rgb kCarSide{224, 227, 230};
-constexpr Rgb kGlass{120, 186, 220};
+constexpr Rgb kGlass{205, 236, 250};
 constexpr double kGrid = 0.5;        // m
 constexpr double kSkin = 0.03;       // m: drawn thickness of the front seen from the side
 constexpr double kMargin = 0.12;     // m around the scene

@@ -3,10 +3,11 @@
 import * as THREE from 'three';
 import { floats, integers } from './bytes.js';
 
-const kGold = 0xecb242;
-const kBlue = 0x488ac8;
-const kCar = 0xa4aab1;
-const kGlass = 0x78bae0;
+// As in the still pictures.
+const kGold = 0xe29e2c;
+const kBlue = 0x2662a8;
+const kCar = 0xcbd0d5;
+const kGlass = 0xcdecfa;
 
 const material = (color, more = {}) => new THREE.MeshLambertMaterial({ color, ...more });
 

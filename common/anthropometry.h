@@ -34,21 +34,33 @@ struct Measure {
   std::string_view name;  ///< scenario key without its unit
   MeasureKind kind = MeasureKind::Length;
   double Anthropometry::*value = nullptr;
+  /// A woman's and a six-year-old's measure over the reference man's scaled to their stature and
+  /// mass.
+  double woman = 1, six_years = 1;
+};
+
+enum class Sex { Male, Female };
+
+/// What missing measures are predicted from.
+struct Person {
+  double mass = 0, standing_height = 0;
+  Sex sex = Sex::Male;
+  double age = 40;  ///< years
 };
 
 /// All 35, in the order of the table.
 std::span<const Measure> anthropometry_measures();
 
-/// Reads the measures of `subject`. Mass and standing height are required; a missing one is scaled
-/// from `reference`: lengths by the ratio of statures, girths by sqrt of the ratio of mass /
-/// stature. Contradicting measures (a chest deeper than it is wide twice over, a knee above the
+/// Reads the measures of `subject`. Mass and standing height are required; missing ones are
+/// predicted. Contradicting measures (a chest deeper than it is wide twice over, a knee above the
 /// hip, ...) are problems of the document.
 Anthropometry read_anthropometry(ConfigTable subject, const Anthropometry& reference);
 /// Reads all 35; none may miss.
 Anthropometry read_complete_anthropometry(ConfigTable table);
 
-/// The measure `kind` of a person of that mass and stature, from the reference person's.
-double predicted_measure(const Measure& measure, const Anthropometry& reference, double mass,
-                         double standing_height);
+/// The reference person's measure scaled by stature or by sqrt(mass / stature), times what sex and
+/// age add to that; between 6 and 18 years the child's share fades out linearly and the woman's in.
+double predicted_measure(const Measure& measure, const Anthropometry& reference,
+                         const Person& person);
 
 }  // namespace crosswalk

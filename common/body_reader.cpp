@@ -73,6 +73,7 @@ class SubjectReader {
     overrides.stance_half_width =
         table.quantity_or("stance_half_width", Dimension::Length, kNonNegative, 0,
                           "half distance of the hip joints; 0: 0.245 of the hip breadth");
+    refuse_contradiction();
     const JointHeights heights = solve_heights(out_.measures, overrides);
     Variables now = body_variables(out_.measures, heights, overrides);
     out_.height_residuals = heights.residuals;
@@ -86,6 +87,27 @@ class SubjectReader {
         BodyFormulas(std::move(now), body_variables(reference, solve_heights(reference), {}));
     bone_quality_ = subject_.quantity_or("bone_quality", Dimension::None, {0.3, 1.5}, 1,
                                          "factor on fracture moments for age");
+  }
+
+  /// Of the heights that were given, the one that the others contradict most.
+  void refuse_contradiction() {
+    HeightContradiction worst;
+    for (const HeightContradiction& c : height_contradictions(out_.measures)) {
+      if (subject_.has(c.measure) && c.sigmas > worst.sigmas) worst = c;
+    }
+    if (worst.sigmas <= kContradiction) return;
+    double given = 0;
+    for (const Measure& measure : anthropometry_measures()) {
+      if (measure.name == worst.measure) given = out_.measures.*measure.value;
+    }
+    subject_.problem(
+        worst.measure,
+        fmt::format("about {:.1f} mm, as the other heights say", 1e3 * (given - worst.excess)),
+        fmt::format("{:.1f} mm", 1e3 * given),
+        fmt::format("{:.1f} mm too {}, {:.1f} standard deviations of the height "
+                    "equations; {:g} are allowed",
+                    1e3 * std::abs(worst.excess), worst.excess > 0 ? "much" : "little",
+                    worst.sigmas, kContradiction));
   }
 
   void read_groups() {

@@ -1,6 +1,7 @@
 #include "common/body_scaling.h"
 
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -19,6 +20,13 @@ struct Row {
   Eigen::Matrix<double, 1, kHeightCount> factors;
   double value;
   double sigma;
+  std::string_view measure = {};  // the height it was measured by, and how `value` grows with it
+  double slope = 0;
+  Row of(std::string_view name, double d_value) && {
+    measure = name;
+    slope = d_value;
+    return std::move(*this);
+  }
 };
 
 Row row(std::string equation, std::initializer_list<std::pair<Height, double>> factors,
@@ -35,22 +43,27 @@ Row row(std::string equation, std::initializer_list<std::pair<Height, double>> f
 std::vector<Row> height_rows(const Anthropometry& a, const HeightOverrides& overrides) {
   const double H = a.standing_height;
   std::vector<Row> rows = {
-      row("ankle = 0.80 outside ankle height", {{kAnkle, 1}}, 0.80 * a.ankle_height_outside, 8),
+      row("ankle = 0.80 outside ankle height", {{kAnkle, 1}}, 0.80 * a.ankle_height_outside, 8)
+          .of("ankle_height_outside", 0.80),
       row("ankle = 0.042 H", {{kAnkle, 1}}, 0.042 * H, 10),
       row("knee = seated knee height - knee radius", {{kKnee, 1}},
-          a.knee_height_seated - a.knee_circumference / (2 * kPi), 8),
+          a.knee_height_seated - a.knee_circumference / (2 * kPi), 8)
+          .of("knee_height_seated", 1),
       row("knee = 0.285 H", {{kKnee, 1}}, 0.285 * H, 25),
-      row("hip = 1.056 H - seated height", {{kHip, 1}}, H - a.seated_height + 0.056 * H, 15),
+      row("hip = 1.056 H - seated height", {{kHip, 1}}, H - a.seated_height + 0.056 * H, 15)
+          .of("seated_height", -1),
       row("hip = 0.5225 H", {{kHip, 1}}, 0.5225 * H, 20),
-      row("waist = waist height", {{kWaist, 1}}, a.waist_height, 15),
+      row("waist = waist height", {{kWaist, 1}}, a.waist_height, 15).of("waist_height", 1),
       row("waist - hip = 0.0837 H", {{kWaist, 1}, {kHip, -1}}, 0.0837 * H, 12),
       row("L5S1 - hip = 0.050 H", {{kL5S1, 1}, {kHip, -1}}, 0.050 * H, 4),
       row("waist = 0.852 L5S1 + 0.148 C7T1", {{kWaist, 1}, {kL5S1, -0.852}, {kC7T1, -0.148}}, 0,
           12),
-      row("C7T1 = shoulder height - 0.0114 H", {{kC7T1, 1}}, a.shoulder_height - 0.0114 * H, 12),
+      row("C7T1 = shoulder height - 0.0114 H", {{kC7T1, 1}}, a.shoulder_height - 0.0114 * H, 12)
+          .of("shoulder_height", 1),
       row("C7T1 = 0.8546 H", {{kC7T1, 1}}, 0.8546 * H, 20),
       row("shoulder joint = armpit height + 0.0385 H", {{kSJC, 1}}, a.armpit_height + 0.0385 * H,
-          12),
+          12)
+          .of("armpit_height", 1),
       row("shoulder joint = 0.8184 H", {{kSJC, 1}}, 0.8184 * H, 20),
       row("C7T1 - shoulder joint = 0.0362 H", {{kC7T1, 1}, {kSJC, -1}}, 0.0362 * H, 10),
       row("occipital condyles = H - 0.64 head to chin", {{kOC, 1}},
@@ -62,16 +75,26 @@ std::vector<Row> height_rows(const Anthropometry& a, const HeightOverrides& over
   return rows;
 }
 
+/// Equations over their sigmas: A z = b.
+struct Weighted {
+  Eigen::MatrixXd A;
+  Eigen::VectorXd b;
+};
+Weighted weighted(const std::vector<Row>& rows) {
+  Weighted w{Eigen::MatrixXd(rows.size(), static_cast<int>(kHeightCount)),
+             Eigen::VectorXd(rows.size())};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    w.A.row(i) = rows[i].factors / rows[i].sigma;
+    w.b[i] = rows[i].value / rows[i].sigma;
+  }
+  return w;
+}
+
 }  // namespace
 
 JointHeights solve_heights(const Anthropometry& a, const HeightOverrides& overrides) {
   const std::vector<Row> rows = height_rows(a, overrides);
-  Eigen::MatrixXd A(rows.size(), static_cast<int>(kHeightCount));
-  Eigen::VectorXd b(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    A.row(i) = rows[i].factors / rows[i].sigma;
-    b[i] = rows[i].value / rows[i].sigma;
-  }
+  const auto [A, b] = weighted(rows);
   const Eigen::VectorXd z = A.colPivHouseholderQr().solve(b);
   JointHeights heights{.ankle = z[kAnkle],
                        .knee = z[kKnee],
@@ -86,6 +109,25 @@ JointHeights solve_heights(const Anthropometry& a, const HeightOverrides& overri
     heights.residuals.push_back({r.equation, r.factors.dot(z) - r.value, r.sigma});
   }
   return heights;
+}
+
+// Least squares with row i left out: its residual is e_i / (1 - h_i), of standard deviation
+// 1 / sqrt(1 - h_i) in weighted units, with the leverage h_i = |row i of Q|^2, A = Q R.
+std::vector<HeightContradiction> height_contradictions(const Anthropometry& a) {
+  const std::vector<Row> rows = height_rows(a, {});
+  const auto [A, b] = weighted(rows);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A);
+  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(A.rows(), A.cols());
+  const Eigen::VectorXd e = b - Q * (Q.transpose() * b);
+  std::vector<HeightContradiction> found;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double rest = 1 - Q.row(k).squaredNorm();
+    if (rows[i].measure.empty() || rest < 1e-9) continue;
+    found.push_back({rows[i].measure, e[k] * rows[i].sigma / (rest * rows[i].slope),
+                     std::abs(e[k]) / std::sqrt(rest)});
+  }
+  return found;
 }
 
 Variables body_variables(const Anthropometry& a, const JointHeights& heights,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "common/anthropometry.h"
@@ -25,6 +26,19 @@ struct JointHeights {
 };
 
 JointHeights solve_heights(const Anthropometry& a, const HeightOverrides& overrides = {});
+
+/// A measured height against what all other equations say of it: its residual when left out of the
+/// least squares, over the standard deviation of that residual (sigma_i / sqrt(1 - leverage_i)).
+struct HeightContradiction {
+  std::string_view measure;
+  double excess = 0;  ///< m, measured less predicted by the others
+  double sigmas = 0;  ///< the same, in standard deviations
+};
+/// Beyond this a set of measures cannot be one person's: the equations' sigmas cover reading errors
+/// and people's proportions [E]. The published subjects stay within 1.6.
+inline constexpr double kContradiction = 4;
+/// One entry for each height that other equations speak of, too; overrides take no part.
+std::vector<HeightContradiction> height_contradictions(const Anthropometry& a);
 
 /// Every name that formulas of a subject file may use.
 Variables body_variables(const Anthropometry& a, const JointHeights& heights,

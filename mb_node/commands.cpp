@@ -1,6 +1,5 @@
 #include "mb_node/commands.h"
 
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mb_node/solo.h"
+#include "mb_node/subject_report.h"
 
 namespace crosswalk::mb {
 namespace {
@@ -27,39 +27,11 @@ void write_poses(const SoloResult& result, const std::filesystem::path& file) {
                                         {"frames", frames}};
 }
 
-std::string subject_report(const BodyDescription& body) {
-  const Anthropometry got = measured_on(body);
-  std::string text =
-      fmt::format("Subject {}\n\n   measure{:26}asked   obtained  difference\n", body.name, "");
-  for (const Measure& m : anthropometry_measures()) {
-    const bool is_mass = m.kind == MeasureKind::Mass;
-    const double unit = is_mass ? 1 : 1e3;
-    const double asked = unit * body.measures.*m.value, obtained = unit * got.*m.value;
-    if (obtained == 0) {  // not on this body
-      text += fmt::format("{:3} {:28}{:9.1f}          -           -\n", m.number, m.name, asked);
-      continue;
-    }
-    text += fmt::format("{:3} {:28}{:9.1f}  {:9.1f}  {:+9.1f}  {:+6.1f} %\n", m.number, m.name,
-                        asked, obtained, obtained - asked, 100 * (obtained / asked - 1));
-  }
-  text +=
-      "   (kg for the mass, else mm; obtained: taken back from the model's joints and "
-      "ellipsoids)\n\n";
-  text +=
-      "Height reconciliation\n   equation                                   residual mm   sigma "
-      "mm\n";
-  for (const HeightResidual& r : body.height_residuals) {
-    text += fmt::format("   {:44}{:+9.1f}  {:9.1f}\n", r.equation, 1e3 * r.residual, 1e3 * r.sigma);
-  }
-  text +=
-      "\nBodies\n   name              mass kg   COM x, y, z mm            Ixx, Iyy, Izz 1e-4 kg "
-      "m2\n";
-  for (const Segment& s : body.segments) {
-    text += fmt::format("   {:16}{:9.4f}{:9.1f}{:8.1f}{:8.1f}{:11.2f}{:9.2f}{:9.2f}\n", s.name,
-                        s.mass, 1e3 * s.com.x(), 1e3 * s.com.y(), 1e3 * s.com.z(),
-                        1e4 * s.inertia(0, 0), 1e4 * s.inertia(1, 1), 1e4 * s.inertia(2, 2));
-  }
-  return text + fmt::format("   total {:19.4f}\n", body.total_mass());
+/// The published model's scaling to this subject, where it is kept beside the subjects.
+PublishedScaling published_of(const BodyDescription& body, const std::filesystem::path& subject) {
+  const std::filesystem::path file = subject.parent_path() / "../reference/scaled_models.csv";
+  return std::filesystem::exists(file) ? read_published_scaling(file, body.name)
+                                       : PublishedScaling{};
 }
 
 }  // namespace
@@ -97,7 +69,7 @@ NodeCommand subject_command() {
               ConfigDocument document(*file);
               const BodyDescription body = read_body_description(document.root());
               document.finish();
-              fmt::print("{}", subject_report(body));
+              fmt::print("{}", subject_report(body, published_of(body, *file)));
               return ExitCode::Done;
             };
           }};

@@ -1,9 +1,13 @@
 #include "common/anthropometry.h"
 
+#include <cmath>
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/body_scaling.h"
+#include "common/units.h"
 #include "tests/common/subject_fixture.h"
 
 namespace crosswalk {
@@ -23,6 +27,23 @@ TEST(Anthropometry, FillsMissingMeasuresFromStatureAndMass) {
       load_subject("male_50", "standing_height_mm = 1914\nmass_kg = 83.27\n").measures;
   EXPECT_NEAR(tall.knee_height_seated, 1.1 * 0.552, 1e-12);
   EXPECT_NEAR(tall.thigh_circumference, 0.540, 1e-12);  // mass per stature unchanged
+}
+
+TEST(Anthropometry, SexAndAgeShiftTheProportionsOfWhatIsMissing) {
+  const std::string size = "standing_height_mm = 1740\nmass_kg = 75.7\n";
+  const Anthropometry man = load_subject("male_50", size).measures;
+  const Anthropometry woman = load_subject("male_50", size + "sex = \"female\"\n").measures;
+  EXPECT_NEAR(woman.hip_breadth_standing / man.hip_breadth_standing, 1.085, 1e-12);
+  EXPECT_NEAR(woman.neck_circumference / man.neck_circumference, 0.90, 1e-12);
+  EXPECT_EQ(woman.knee_height_seated, man.knee_height_seated);
+  const auto head_at = [](int years) {
+    return load_subject("male_50", "standing_height_mm = 1170\nmass_kg = 23.0\nage_years = " +
+                                       std::to_string(years) + "\n")
+        .measures.head_length;
+  };
+  EXPECT_NEAR(head_at(6), 0.181, 1e-3);  // [snyder1977]
+  EXPECT_NEAR(head_at(12), (head_at(6) + head_at(18)) / 2, 1e-12);
+  EXPECT_EQ(head_at(30), head_at(18));
 }
 
 TEST(Anthropometry, RefusesContradictionsWithTheMeasureAndTheAmount) {
@@ -57,6 +78,48 @@ TEST(Anthropometry, RefusesEveryNegativeMeasureByName) {
     const std::string name(m.name), unit = m.kind == MeasureKind::Mass ? "_kg" : "_mm";
     EXPECT_THAT(refusal("male_50", name + unit + " = -500\n"), testing::HasSubstr(name)) << name;
     EXPECT_THAT(refusal("male_50", name + unit + " = 0\n"), testing::HasSubstr(name)) << name;
+  }
+}
+
+TEST(Anthropometry, RefusesAHeightThatTheOthersContradict) {
+  // All within 30 % of what stature predicts, but no person's: the others leave it no room.
+  struct Case {
+    const char* measure;
+    double mm;
+    const char* direction;
+  };
+  for (const Case& c :
+       {Case{"knee_height_seated", 700, "much"}, Case{"knee_height_seated", 430, "little"},
+        Case{"seated_height", 1080, "much"}, Case{"waist_height", 950, "little"},
+        Case{"armpit_height", 1290, "little"}}) {
+    const std::string name(c.measure);
+    const std::string text = refusal("v2370", name + "_mm = " + std::to_string(c.mm) + "\n");
+    EXPECT_THAT(text, testing::HasSubstr("subject." + name));
+    EXPECT_THAT(text, testing::HasSubstr(std::string("mm too ") + c.direction)) << name;
+    EXPECT_THAT(text, testing::HasSubstr("standard deviations")) << name;
+  }
+}
+
+TEST(Anthropometry, AContradictionIsTheDistanceFromWhatTheOthersSay) {
+  // The knee has two equations: 0.285 H with 25 mm, measured with 8 mm.
+  Anthropometry a = load_subject("male_50").measures;
+  a.knee_height_seated = 0.285 * a.standing_height + a.knee_circumference / (2 * kPi) + 0.1;
+  for (const HeightContradiction& c : height_contradictions(a)) {
+    if (c.measure != "knee_height_seated") continue;
+    EXPECT_NEAR(c.excess, 0.1, 1e-9);
+    EXPECT_NEAR(c.sigmas, 100 / std::hypot(25, 8), 1e-9);
+  }
+}
+
+TEST(Anthropometry, PublishedSubjectsAreFarFromContradiction) {
+  for (const char* subject :
+       {"v2370", "v2371", "v2374", "male_50", "male_95", "female_05", "child_6"}) {
+    const std::vector<HeightContradiction> all =
+        height_contradictions(load_subject(subject).measures);
+    EXPECT_EQ(all.size(), 6u);
+    for (const HeightContradiction& c : all) {
+      EXPECT_LT(c.sigmas, 2) << subject << " " << c.measure;
+    }
   }
 }
 

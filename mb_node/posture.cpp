@@ -14,7 +14,9 @@
 namespace crosswalk::mb {
 namespace {
 
-constexpr double kSoleDepth = 1.5e-3;  // m into the ground: carries part of the weight [E]
+constexpr double kSoleDepth = 1.5e-3;      // m into the ground: carries part of the weight [E]
+constexpr double kFeetUnderGround = 0.03;  // m: more is no error of the markers [E]
+constexpr double kBuried = 1e-3;           // m deeper than the soles: the stance is refused [E]
 constexpr double kPlantarflexionMax = 35 * kDegree;   // [E]
 constexpr double kForearmInclination = 45 * kDegree;  // hands crossed before the abdomen [E]
 
@@ -41,6 +43,7 @@ class Solver {
       bind("_r", settings_.right_arm, -1);
     }
     stand();
+    if (!settings_.markers.empty()) follow_markers();
     return {rotations_, place(), residuals_};
   }
 
@@ -194,9 +197,46 @@ class Solver {
       high = 0;
       level_foot(floating, R_shank, 0);
     }
+    refuse_buried();
     residuals_.push_back({"plantarflexion of the trailing foot" + floating + " (rad)", 0, high});
     residuals_.push_back({"lowest point of the left foot (m)", -kSoleDepth, lowest_of_foot("_l")});
     residuals_.push_back({"lowest point of the right foot (m)", -kSoleDepth, lowest_of_foot("_r")});
+  }
+
+  /// Joints and place as the markers say; the height stays that of the feet on the ground.
+  void follow_markers() {
+    const MarkerFit fit = fit_markers(body_, settings_.markers, rotations_, pelvis_);
+    rotations_ = fit.joint_rotation;
+    pelvis_ = fit.pelvis;
+    const double raised = -kSoleDepth - std::min(lowest_of_foot("_l"), lowest_of_foot("_r"));
+    if (raised > kFeetUnderGround) {
+      throw UserError({{},
+                       "posture.marker",
+                       "feet on the ground",
+                       fmt::format("feet {:.1f} mm below it", 1e3 * (raised + kSoleDepth)),
+                       "check position_mm: heights count from the ground"});
+    }
+    pelvis_.z() += raised;
+    refuse_buried();
+    for (std::size_t i = 0; i < settings_.markers.size(); ++i) {
+      residuals_.push_back({"marker " + settings_.markers[i].name + ": distance (m)", 0,
+                            (fit.miss[i] + Vec3(0, 0, raised)).norm()});
+    }
+    residuals_.push_back({"raised until the feet touch, after the markers (m)", 0, raised});
+  }
+
+  /// Knees, hands or trunk deeper in the ground than the soles.
+  void refuse_buried() const {
+    const std::vector<Pose> X_WB = place();
+    for (int i = 0; i < static_cast<int>(body_.segments.size()); ++i) {
+      const double lowest = lowest_point(body_, X_WB, i);
+      if (lowest >= -kSoleDepth - kBuried) continue;
+      throw UserError({{},
+                       "posture",
+                       fmt::format("a stance with {} above the ground", body_.segments[i].name),
+                       fmt::format("{:.1f} mm below it", -1e3 * lowest),
+                       "bend hips and knees less"});
+    }
   }
 
   const BodyDescription& body_;
@@ -306,6 +346,7 @@ PostureSettings read_posture(ConfigTable posture) {
                   ? Support::None
                   : Support::Harness;
   read_gait(posture, s);
+  s.markers = read_markers(posture);
   return s;
 }
 

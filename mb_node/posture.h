@@ -4,7 +4,8 @@
 // Legs follow measured segment angles (thigh and shank in side and front view). The pelvis is
 // lowered until the first foot touches; the other foot is plantarflexed until it touches too. Bound
 // arms are the weighted least-squares solution for shoulder and elbow angles that bring the wrists
-// together in front of the abdomen. W: the pedestrian faces +x at heading 0.
+// together in front of the abdomen. Markers, where given, turn all joints from there to where they
+// were seen (marker_fit.h). W: the pedestrian faces +x at heading 0.
 #pragma once
 
 #include <string>
@@ -13,6 +14,7 @@
 #include "common/body_description.h"
 #include "common/config.h"
 #include "common/spatial.h"
+#include "mb_node/marker_fit.h"
 
 namespace crosswalk::mb {
 
@@ -40,6 +42,7 @@ struct PostureSettings {
   double heading = 0;                        ///< rad about +z; 0: right side to the car
   double walking_speed = 0;                  ///< m/s along the heading
   Support support = Support::Harness;
+  std::vector<Marker> markers;  ///< seen points that the angles are fitted to
 };
 
 /// One thing the solver was asked for: target and what came out, in SI.

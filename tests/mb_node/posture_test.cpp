@@ -1,9 +1,11 @@
 #include "mb_node/posture.h"
 
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "common/error.h"
 #include "common/units.h"
 #include "mb_node/world_builder.h"
 #include "tests/common/subject_fixture.h"
@@ -34,6 +36,102 @@ Stance stand(const std::string& test, const std::string& more = {}) {
   Stance s{load_config(test, RunMode::Multibody, more), {}};
   s.posture = solve_posture(s.config.body, s.config.posture);
   return s;
+}
+
+TEST(Markers, BringTheBodyWhereTheyWereSeen) {
+  // Points of the measured stance, given to a person who starts erect: the joints come back.
+  const Stance seen = stand("v2370");
+  Stance s{load_config("v2370", RunMode::Multibody,
+                       "[posture]\nleft_hip_flexion_deg = 0.0\nright_hip_flexion_deg = 0.0\n"
+                       "left_knee_flexion_deg = 0.0\nright_knee_flexion_deg = 0.0\n"),
+           {}};
+  const Vec3 aside(0, 0.04, -0.02);
+  for (const char* name : {"pelvis", "torso_up", "head", "femur_1_l", "femur_1_r", "tibia_1_l",
+                           "tibia_1_r", "talus_l", "talus_r"}) {
+    const int i = s.config.body.find_segment(name);
+    const Segment& segment = s.config.body.segments[i];
+    for (const Vec3& offset : {Vec3(Vec3::Zero()), aside}) {
+      s.config.posture.markers.push_back(
+          {name, name, offset,
+           seen.posture.X_WB[i] * Vec3(segment.joint_centre + offset - segment.com), 0.001});
+    }
+  }
+  s.posture = solve_posture(s.config.body, s.config.posture);
+  int markers = 0;
+  for (const PostureResidual& r : s.posture.residuals) {
+    if (!r.what.starts_with("marker")) continue;
+    ++markers;
+    EXPECT_LT(r.obtained, 0.003) << r.what;  // the height is that of the feet, in the end
+  }
+  EXPECT_EQ(markers, 18);
+  for (const char* name : {"tibia_1_l", "tibia_1_r", "talus_l", "talus_r"}) {
+    const Vec3 found = s.joint(name) - s.joint("pelvis");
+    EXPECT_LT((found - seen.joint(name) + seen.joint("pelvis")).norm(), 0.004) << name;
+  }
+}
+
+TEST(Markers, NoPostureMeetsAreRefusedByNameAndDistance) {
+  Stance s{load_config("v2370", RunMode::Multibody), {}};
+  s.config.posture.markers = {{"hip", "pelvis", Vec3::Zero(), Vec3(0, 0, 0.95), 0.001},
+                              {"crown", "head", Vec3::Zero(), Vec3(0, 0, 2.6), 0.01}};
+  try {
+    solve_posture(s.config.body, s.config.posture);
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("crown"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("mm away"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Markers, UnderTheGroundAreRefusedWithTheAmount) {
+  const Stance seen = stand("v2370");
+  Stance s{load_config("v2370", RunMode::Multibody), {}};
+  for (const char* name : {"pelvis", "femur_1_l", "femur_1_r", "talus_l", "talus_r"}) {
+    s.config.posture.markers.push_back(
+        {name, name, Vec3::Zero(), seen.joint(name) - Vec3(0, 0, 0.2), 0.001});
+  }
+  try {
+    solve_posture(s.config.body, s.config.posture);
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("feet 20"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("mm below it"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Markers, AreReadFromTheScenario) {
+  const Stance s = stand("v2370",
+                         "[[posture.marker]]\nname = \"left knee\"\nbody = \"tibia_1_l\"\n"
+                         "offset_mm = [0.0, 50.0, 0.0]\nposition_mm = [130.0, 140.0, 612.0]\n"
+                         "sigma_mm = 5.0\n");
+  ASSERT_EQ(s.config.posture.markers.size(), 1u);
+  EXPECT_NEAR(s.config.posture.markers[0].position.y(), 0.14, 1e-12);
+  EXPECT_NEAR(s.config.posture.markers[0].offset.y(), 0.05, 1e-12);
+  EXPECT_EQ(s.posture.residuals.end()[-2].what, "marker left knee: distance (m)");
+}
+
+TEST(Stance, WithAKneeInTheGroundIsRefusedByNameAndAmount) {
+  try {
+    stand("v2370",
+          "[posture]\nleft_hip_flexion_deg = 0.0\nleft_knee_flexion_deg = 130.0\n"
+          "right_hip_flexion_deg = 100.0\nright_knee_flexion_deg = 20.0\n");
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("_l above the ground"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("mm below it"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Gait, EveryPhaseOfWalkingAndRunningStandsOnTheGround) {
+  for (const char* gait : {"walking", "running"}) {
+    for (int phase = 0; phase <= 100; phase += 5) {
+      const Stance s =
+          stand("walking_40", std::string("[posture]\nbase = \"../postures/") + gait +
+                                  ".toml\"\ngait_phase = " + std::to_string(phase) + ".0\n");
+      EXPECT_NEAR(std::min(s.lowest("_l"), s.lowest("_r")), -1.5e-3, 1e-6) << gait << phase;
+    }
+  }
 }
 
 class MeasuredStance : public testing::TestWithParam<const char*> {};

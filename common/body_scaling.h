@@ -35,7 +35,7 @@ struct HeightContradiction {
   double sigmas = 0;  ///< the same, in standard deviations
 };
 /// Beyond this a set of measures cannot be one person's: the equations' sigmas cover reading errors
-/// and people's proportions [E]. The published subjects stay within 1.6.
+/// and people's proportions [E]. The published subjects stay within 2.
 inline constexpr double kContradiction = 4;
 /// One entry for each height that other equations speak of, too; overrides take no part.
 std::vector<HeightContradiction> height_contradictions(const Anthropometry& a);

@@ -13,6 +13,7 @@
 
 #include <Eigen/Dense>
 
+#include "common/energy_books.h"
 #include "common/spatial.h"
 
 namespace crosswalk {
@@ -63,8 +64,7 @@ struct MbReply {
   bool mobility_changed = false;  ///< contact set, joint stop or failure changed: measure again
   bool first_contact = false;     ///< car and pedestrian have touched (10 N)
   std::uint64_t state_hash = 0;
-  double kinetic = 0, gravity = 0, joint_elastic = 0, joint_dissipated = 0;  ///< J
-  double contact_absorbed = 0, car_work = 0, interface_work = 0;             ///< J, since the start
+  MbEnergies energy;
   std::vector<BodyMotion> bodies;  ///< at the end of the window
   /// W = J M^-1 J^T of the attached bodies, measured before the step when asked for; else empty.
   Eigen::MatrixXd mobility;

@@ -97,6 +97,9 @@ JointRestraint read_restraint(ConfigTable& table, const BodyFormulas& formulas,
   if (table.has("bone")) {
     ConfigTable bone = table.table("bone", "bending and torsion of a long bone");
     restraint.bone = read_bone(bone, formulas, bone_quality, g, l);
+    // The same about all lateral axes: the swing is the bend itself, and a broken bone may fold by
+    // more than the 90 deg at which Cardan angles end.
+    restraint.coordinates = Coordinates::SwingTwist;
   }
   if (table.has("shear_x")) {
     restraint.shear = table

@@ -82,10 +82,11 @@ std::optional<std::string> problem_in(const msg::mb_done& m) {
   gate.energy("kinetic", m.kinetic);
   gate.energy("gravity", m.gravity);
   gate.energy("joint_elastic", m.joint_elastic);
-  gate.energy("joint_dissipated", m.joint_dissipated);
-  gate.energy("contact_absorbed", m.contact_absorbed);
+  gate.energy("contact_elastic", m.contact_elastic);
+  gate.array("lost", 0, m.lost, Gate::kEnergy);
   gate.energy("car_work", m.car_work);
   gate.energy("interface_work", m.interface_work);
+  gate.energy("stepping", m.stepping);
   for (int k = 0; k < std::min(m.n_bodies, kMaxInterfaceBodies); ++k) gate.motion(k, m.body[k]);
   return gate.result();
 }

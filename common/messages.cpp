@@ -1,5 +1,9 @@
 #include "common/messages.h"
 
+#include <algorithm>
+#include <iterator>
+#include <type_traits>
+
 #include <fmt/format.h>
 
 #include "common/error.h"
@@ -137,13 +141,16 @@ msg::mb_done to_message(const WindowId& id, const MbReply& reply) {
   m.state_hash = static_cast<std::int64_t>(reply.state_hash);
   m.mobility_changed = reply.mobility_changed ? 1 : 0;
   m.first_contact = reply.first_contact ? 1 : 0;
-  m.kinetic = reply.kinetic;
-  m.gravity = reply.gravity;
-  m.joint_elastic = reply.joint_elastic;
-  m.joint_dissipated = reply.joint_dissipated;
-  m.contact_absorbed = reply.contact_absorbed;
-  m.car_work = reply.car_work;
-  m.interface_work = reply.interface_work;
+  const MbEnergies& e = reply.energy;
+  m.kinetic = e.kinetic;
+  m.gravity = e.gravity;
+  m.joint_elastic = e.joint_elastic;
+  m.contact_elastic = e.contact_elastic;
+  static_assert(std::extent_v<decltype(m.lost)> == kMbLosses);
+  std::copy(e.lost.J.begin(), e.lost.J.end(), m.lost);
+  m.car_work = e.car_work;
+  m.interface_work = e.interface_work;
+  m.stepping = e.stepping;
   for (std::size_t k = 0; k < reply.bodies.size(); ++k) m.body[k] = motion_of(reply.bodies[k]);
   return m;
 }
@@ -156,13 +163,15 @@ MbReply from_message(const msg::mb_done& m) {
   reply.mobility_changed = m.mobility_changed != 0;
   reply.first_contact = m.first_contact != 0;
   reply.state_hash = static_cast<std::uint64_t>(m.state_hash);
-  reply.kinetic = m.kinetic;
-  reply.gravity = m.gravity;
-  reply.joint_elastic = m.joint_elastic;
-  reply.joint_dissipated = m.joint_dissipated;
-  reply.contact_absorbed = m.contact_absorbed;
-  reply.car_work = m.car_work;
-  reply.interface_work = m.interface_work;
+  MbEnergies& e = reply.energy;
+  e.kinetic = m.kinetic;
+  e.gravity = m.gravity;
+  e.joint_elastic = m.joint_elastic;
+  e.contact_elastic = m.contact_elastic;
+  std::copy(std::begin(m.lost), std::end(m.lost), e.lost.J.begin());
+  e.car_work = m.car_work;
+  e.interface_work = m.interface_work;
+  e.stepping = m.stepping;
   for (int k = 0; k < m.n_bodies; ++k) reply.bodies.push_back(motion_of(m.body[k]));
   return reply;
 }

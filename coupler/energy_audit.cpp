@@ -12,14 +12,12 @@ namespace crosswalk::coupling {
 
 void EnergyAudit::book(const WindowResult& result, const CouplingState& after) {
   books_.exchanged += std::abs(result.fe.interface_work - books_.work_fe);
-  books_.work_mb = result.mb.interface_work;
+  books_.work_mb = result.mb.energy.interface_work;
   books_.work_fe = result.fe.interface_work;
-  const MbReply& mb = result.mb;
+  const MbEnergies& mb = result.mb.energy;
   const FeReply& fe = result.fe;
   // Held and lost on both sides; the interface works cancel but for the drift.
-  books_.total = mb.kinetic + mb.gravity + mb.joint_elastic + mb.joint_dissipated +
-                 mb.contact_absorbed + fe.kinetic + fe.internal + fe.hourglass + fe.contact +
-                 fe.damping;
+  books_.total = mb.held() + fe.kinetic + fe.internal + fe.hourglass + fe.contact + fe.damping;
   books_.external = mb.car_work + fe.external_work;
   if (!books_.has_start) books_.start = books_.total - books_.external;
   books_.has_start = true;

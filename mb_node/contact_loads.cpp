@@ -42,6 +42,7 @@ void ContactLoads::apply(const Kinematics& now, double dt, bool is_on_ground, Mb
   report_.car_total.setZero();
   report_.head_car.setZero();
   report_.ground.setZero();
+  report_.ground_head.setZero();
   std::fill(report_.car_component.begin(), report_.car_component.end(), Vec3::Zero());
   touch_car(now, dt, state, loads);
   if (is_on_ground) touch_ground(now, loads);
@@ -151,6 +152,7 @@ void ContactLoads::touch_ground(const Kinematics& now, std::vector<Wrench>& load
     add(now, Vec3::Zero(), push.stiffness * push.pressed + push.viscous, settings.friction_ground,
         kGroundSlipSpeed, push, loads);
     report_.ground += pushes_.back().total;
+    if (part.segment == model_.head) report_.ground_head += pushes_.back().total;
   }
 }
 

@@ -18,7 +18,8 @@ struct ContactReport {
   Vec3 head_car = Vec3::Zero();
   Vec3 head_point = Vec3::Zero();  ///< where the head last touched the car, W
   Vec3 ground = Vec3::Zero();
-  double self_total = 0;  ///< N, sum of magnitudes
+  Vec3 ground_head = Vec3::Zero();  ///< the part of it on the head
+  double self_total = 0;            ///< N, sum of magnitudes
   int contacts = 0;
   std::uint64_t contact_set = 0;  ///< hash of the pairs in touch
 };

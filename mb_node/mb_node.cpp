@@ -155,11 +155,16 @@ void MbNode::run_substeps(const MbGrant& grant, Records& records) {
   if (!dynamics_->all_finite()) {
     throw NumericalError(state_.time, "a body's motion is not a number");
   }
-  const double drift = world_->joint_drift();
-  if (drift > kDriftLimit) {
-    throw NumericalError(state_.time, fmt::format("joints have drifted apart by {:.2g} mm; use a "
-                                                  "smaller multibody.substep",
-                                                  1e3 * drift));
+  const OdeWorld::JointDrift drift = world_->joint_drift();
+  if (drift.distance > kDriftLimit) {
+    const Segment& child = model_->config.body.segments[drift.child];
+    throw NumericalError(
+        state_.time,
+        fmt::format(
+            "the joint between {} and {} has drifted apart by {:.2g} mm, {} turns at {:.0f} "
+            "rad/s; use a smaller multibody.substep",
+            model_->config.body.segments[child.parent].name, child.name, 1e3 * drift.distance,
+            child.name, dynamics_->kinematics().V[drift.child].w.norm()));
   }
   if (model_->head < 0 || !grant.id.ends_window()) return;
   HeadSample head;
@@ -206,14 +211,7 @@ MbReply MbNode::reply(const MbGrant& grant, Eigen::MatrixXd mobility, std::uint6
   r.mobility_changed = state_.contact_set != contacts_before || state_.bone_broken != bones_before;
   r.first_contact = state_.first_contact_time >= 0;
   r.state_hash = state_hash();
-  const MbEnergies e = energies();
-  r.kinetic = e.kinetic;
-  r.gravity = e.gravity;
-  r.joint_elastic = e.joint_elastic;
-  r.joint_dissipated = e.joint_lost();
-  r.contact_absorbed = e.contact_elastic + e.lost.sum() - e.joint_lost();
-  r.car_work = e.car_work;
-  r.interface_work = e.interface_work;
+  r.energy = energies();
   for (const InterfaceSpec& spec : model_->config.interfaces) {
     r.bodies.push_back(motion_of(spec.body));
   }
@@ -251,13 +249,14 @@ std::vector<Pose> MbNode::poses() const {
   return poses;
 }
 
-// Order of the names in description(): car_total, each component, head_car, ground.
+// Order of the names in description(): car_total, each component, head_car, ground, ground_head.
 std::vector<Vec3> MbNode::forces() const {
   const ContactReport& report = dynamics_->contacts();
   std::vector<Vec3> forces = {report.car_total};
   forces.insert(forces.end(), report.car_component.begin(), report.car_component.end());
   forces.push_back(report.head_car);
   forces.push_back(report.ground);
+  forces.push_back(report.ground_head);
   return forces;
 }
 

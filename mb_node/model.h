@@ -8,8 +8,8 @@
 #include <array>
 #include <vector>
 
+#include "common/energy_books.h"
 #include "mb_node/contact_law.h"
-#include "mb_node/energy_books.h"
 #include "mb_node/front_contact.h"
 #include "mb_node/joint_law.h"
 #include "mb_node/mb_config.h"

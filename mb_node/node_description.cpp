@@ -33,8 +33,10 @@ json vehicle_json(const Vehicle& vehicle) {
 std::string MbNode::description() const {
   const MbConfig& config = model_->config;
   json bodies = json::array(), ellipsoids = json::array(), links = json::array();
+  json masses = json::array();
   for (const Segment& s : config.body.segments) {
     bodies.push_back(s.name);
+    masses.push_back(s.mass);
     // For stick figures: the parent, and the joint centre in this body's frame.
     links.push_back({{"parent", s.parent}, {"joint_m", array(s.joint_centre - s.com)}});
   }
@@ -51,8 +53,10 @@ std::string MbNode::description() const {
     pairs.push_back("car_" + c.name);
   pairs.push_back("head_car");
   pairs.push_back("ground");
+  pairs.push_back("ground_head");  // the part of it on the head
   const Anthropometry& a = config.body.measures;
   const json description = {{"bodies", bodies},
+                            {"masses_kg", masses},
                             {"links", links},
                             {"ellipsoids", ellipsoids},
                             {"head_body", model_->head},

@@ -297,13 +297,14 @@ Vec3 OdeWorld::angular_momentum(const Vec3& about_W) const {
   return momentum;
 }
 
-double OdeWorld::joint_drift() const {
-  double drift = 0;
+OdeWorld::JointDrift OdeWorld::joint_drift() const {
+  JointDrift worst;
   for (const Impl::Anchored& joint : impl_->anchored) {
     const Vec3 on_parent = joint.parent < 0 ? joint.p_P : Vec3(pose(joint.parent) * joint.p_P);
-    drift = std::max(drift, (on_parent - pose(joint.child) * joint.p_C).norm());
+    const double distance = (on_parent - pose(joint.child) * joint.p_C).norm();
+    if (distance > worst.distance) worst = {distance, joint.child};
   }
-  return drift;
+  return worst;
 }
 
 Eigen::MatrixXd measure_mobility(OdeWorld& world, std::span<const BodyPoint> points, double dt,

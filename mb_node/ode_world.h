@@ -68,8 +68,12 @@ class OdeWorld {
   double kinetic_energy() const;
   Vec3 linear_momentum() const;
   Vec3 angular_momentum(const Vec3& about_W) const;
-  /// Largest distance between the two anchors of any ball, hinge or universal joint.
-  double joint_drift() const;
+  /// Largest distance between the two anchors of any ball, hinge or universal joint, and its child.
+  struct JointDrift {
+    double distance = 0;
+    int child = -1;
+  };
+  JointDrift joint_drift() const;
 
  private:
   struct Impl;

@@ -102,8 +102,8 @@ MbReply PlayedMotion::advance(const MbGrant& grant, RecordSink& sink) {
     reply_.substeps = 1;
     reply_.first_contact = true;
     reply_.bodies = to;
-    reply_.interface_work = work_;
-    reply_.car_work = -work_;  // what moves the bodies supplies all they give
+    reply_.energy.interface_work = work_;
+    reply_.energy.car_work = -work_;  // what moves the bodies supplies all they give
     const auto attached = std::count_if(interfaces_.begin(), interfaces_.end(),
                                         [](const InterfaceSpec& s) { return s.is_attached; });
     if (grant.want_mobility) reply_.mobility = Eigen::MatrixXd::Zero(6 * attached, 6 * attached);

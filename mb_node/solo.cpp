@@ -6,6 +6,7 @@
 #include <deque>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -102,6 +103,7 @@ SoloResult run_solo(const MbConfig& config, double duration) {
   result.description = node.description();
   SoloSummary& s = result.summary;
   s.head_contact = s.wrap_around = s.head_speed = s.head_angle = s.head_travel = s.head_drop = kNaN;
+  s.road_contact = kNaN;
   s.total_mass = config.body.total_mass();
   s.stature = config.body.measures.standing_height;
   const int head = node.model().head;
@@ -135,6 +137,10 @@ SoloResult run_solo(const MbConfig& config, double duration) {
       s.head_travel = node.state().vehicle.y - car_start -
                       (node.dynamics().kinematics().p[head].y() - head_start.y());
     }
+    if (std::isnan(s.road_contact) && contacts.ground_head.norm() > kHeadContactForce) {
+      s.road_contact = t;
+      s.head_peak = std::exchange(sink.peak, 0);
+    }
     if (grant.id.window * window_ns % kSamplePeriod == 0 && t0 >= 0) {
       SoloSample sample;
       sample.t = t;
@@ -153,7 +159,7 @@ SoloResult run_solo(const MbConfig& config, double duration) {
     if (t0 >= 0 && t >= duration) break;
   }
   s.first_contact = node.state().first_contact_time;
-  s.head_peak = sink.peak;
+  (std::isnan(s.road_contact) ? s.head_peak : s.road_peak) = sink.peak;
   s.throw_distance = centre_of_mass(node.world()).y() - cog_start.y();
   s.rest_speed = (node.world().linear_momentum() / s.total_mass).norm();
   s.energies = node.energies();
@@ -202,19 +208,10 @@ void write_samples_csv(const SoloResult& result, const std::filesystem::path& fi
 
 std::string energy_text(const MbEnergies& e) {
   std::string text = "  where the energy is at the end, J\n";
-  const auto row = [&](std::string name, double energy) {
+  for (auto [name, energy] : energy_rows(e)) {
     std::replace(name.begin(), name.end(), '_', ' ');
-    text += fmt::format("    {:22} {:9.1f}\n", name, energy);
-  };
-  row("work of the car", e.car_work);
-  row("kinetic", e.kinetic);
-  row("gravity", e.gravity);
-  row("stored in joints", e.joint_elastic);
-  row("stored in contacts", e.contact_elastic);
-  for (std::size_t k = 0; k < kMbLosses; ++k) {
-    row(std::string("lost: ") + kMbLossNames[k], e.lost.J[k]);
+    text += fmt::format("    {:28} {:9.1f}\n", name, energy);
   }
-  row("gained by steps", e.stepping);
   return text;
 }
 
@@ -233,6 +230,7 @@ std::string summary_text(const SoloResult& result, const std::string& name) {
              "  peak head acceleration   {:.0f} g (1 ms mean)\n"
              "  centre of mass           moved {:.2f} m along the car's path, {:.2f} m/s at the "
              "end\n"
+             "  head on the road         {}\n"
              "  failures                 {}\n"
              "  energy balance           {:.2g} % of the largest kinetic energy, steps alone "
              "{:.2g} %\n"
@@ -240,6 +238,10 @@ std::string summary_text(const SoloResult& result, const std::string& name) {
              name, 1e3 * duration, 1e3 * s.head_contact, s.head_component, 1e3 * s.wrap_around,
              s.head_speed, s.head_speed / s.car_speed, s.head_angle / kDegree, 1e3 * s.head_travel,
              1e3 * s.head_drop, s.head_peak / kStandardGravity, s.throw_distance, s.rest_speed,
+             std::isnan(s.road_contact)
+                 ? "no"
+                 : fmt::format("{:.0f} ms, peak {:.0f} g (1 ms mean)", 1e3 * s.road_contact,
+                               s.road_peak / kStandardGravity),
              broken.empty() ? "none" : broken, 100 * s.energy_error, 100 * s.stepping_error, s.wall,
              s.wall / std::max(1e-9, duration)) +
          energy_text(s.energies);

@@ -32,7 +32,9 @@ struct SoloSummary {
   double head_angle = 0;                 ///< rad below the horizontal, in the car's frame
   double head_travel = 0;                ///< m along the car, from t0
   double head_drop = 0;                  ///< m
-  double head_peak = 0;                  ///< m/s2, mean over 1 ms
+  double head_peak = 0;                  ///< m/s2, mean over 1 ms, before the road
+  double road_contact = 0;               ///< s, head on the road
+  double road_peak = 0;                  ///< m/s2, mean over 1 ms, from then on
   double throw_distance = 0;             ///< m, COG from its start to its last position, along y
   double rest_speed = 0;                 ///< m/s of the COG at the end
   MbEnergies energies;                   ///< at the end
@@ -51,7 +53,7 @@ struct SoloResult {
   std::string description;
 };
 
-inline constexpr double kHeadContactForce = 50;  ///< N: the head has struck the car [E]
+inline constexpr double kHeadContactForce = 50;  ///< N: the head has struck car or road [E]
 
 /// Runs for `duration` after the first contact, in windows of 20 us, or of the substep when longer.
 SoloResult run_solo(const MbConfig& config, double duration);

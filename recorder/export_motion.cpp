@@ -16,6 +16,12 @@ namespace {
   throw UserError(Problem{{}, "motion of a run", what, "none", "take another run"});
 }
 
+void require_written(const std::ofstream& out, const std::filesystem::path& path) {
+  if (out) return;
+  throw UserError(
+      Problem{Place{path.string()}, "motion", "a file that can be written", "not so", {}});
+}
+
 /// The car between two of its recorded poses; it moves evenly there.
 BodyMotion car_at(const std::map<std::int64_t, std::vector<Pose>>& bodies, std::size_t car,
                   std::int64_t t_ns) {
@@ -74,9 +80,31 @@ void write_motion_csv(const std::filesystem::path& path, const RunRecord& record
   }
   out.flush();
   if (first_ns < 0) lacks("samples of the head");
-  if (!out)
-    throw UserError(
-        Problem{Place{path.string()}, "motion", "a file that can be written", "not so", {}});
+  require_written(out, path);
+}
+
+void write_bodies_csv(const std::filesystem::path& path, const RunRecord& record) {
+  const std::vector<std::string> bodies = run_names(record).bodies;
+  if (bodies.empty() || record.bodies.empty()) lacks("poses of bodies");
+  const double t0 = extract(record).t0;
+  std::ofstream out(path);
+  out << "t_ms";
+  for (const std::string& body : bodies) {
+    for (const char* part : {"x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"})
+      fmt::print(out, ",{}_{}", body, part);
+  }
+  out << "\n";
+  for (const auto& [t_ns, poses] : record.bodies) {
+    if (poses.size() != bodies.size()) continue;
+    fmt::print(out, "{:.3f}", 1e3 * (1e-9 * static_cast<double>(t_ns) - t0));
+    for (const Pose& X : poses) {
+      fmt::print(out, ",{:.3f},{:.3f},{:.3f},{:.6f},{:.6f},{:.6f},{:.6f}", 1e3 * X.p.x(),
+                 1e3 * X.p.y(), 1e3 * X.p.z(), X.q.w(), X.q.x(), X.q.y(), X.q.z());
+    }
+    out << "\n";
+  }
+  out.flush();
+  require_written(out, path);
 }
 
 }  // namespace crosswalk::recording

@@ -22,4 +22,9 @@ inline constexpr double kLead = 2e-3;
 void write_motion_csv(const std::filesystem::path& path, const RunRecord& record,
                       MotionStart start);
 
+/// Trajectories: one row per recorded instant (1 ms), t_ms after first contact, then of every body,
+/// the car last, <body>_{x,y,z}_mm and <body>_q{w,x,y,z} of its frame in W (multibody centre of
+/// mass, axes of the erect posture). Throws UserError when the log holds no poses.
+void write_bodies_csv(const std::filesystem::path& path, const RunRecord& record);
+
 }  // namespace crosswalk::recording

@@ -228,17 +228,26 @@ void Extraction::add_contact() {
 
 void Extraction::add_multibody_energy() {
   if (record_.mb.empty()) return;
-  const auto channel = [&](const char* name, const char* what, double MbWindow::*member) {
-    add(std::string("mb_") + name, "J", what,
-        series_of(record_.mb, [member](const MbWindow& w) { return w.*member; }));
+  const auto channel = [&](const std::string& name, const std::string& what, const auto& value) {
+    add("mb_" + name, "J", what,
+        series_of(record_.mb, [&value](const MbWindow& w) { return value(w.energy); }));
   };
-  channel("kinetic_energy", "kinetic energy of the bodies", &MbWindow::kinetic);
-  channel("gravity_energy", "potential energy, zero at the start", &MbWindow::gravity);
-  channel("joint_elastic_energy", "stored in joints", &MbWindow::joint_elastic);
-  channel("joint_dissipation", "lost in joints", &MbWindow::joint_dissipated);
-  channel("contact_absorption", "taken up by contacts", &MbWindow::contact_absorbed);
-  channel("car_work", "done by the car on the pedestrian", &MbWindow::car_work);
-  channel("interface_work", "done by the interface on the bodies", &MbWindow::interface_work);
+  using E = MbEnergies;
+  channel("kinetic_energy", "kinetic energy of the bodies", [](const E& e) { return e.kinetic; });
+  channel("gravity_energy", "potential energy above the road",
+          [](const E& e) { return e.gravity; });
+  channel("joint_elastic_energy", "stored in joints", [](const E& e) { return e.joint_elastic; });
+  channel("contact_elastic_energy", "stored in contacts",
+          [](const E& e) { return e.contact_elastic; });
+  for (std::size_t k = 0; k < kMbLosses; ++k) {
+    std::string law = kMbLossNames[k];
+    std::replace(law.begin(), law.end(), '_', ' ');
+    channel(std::string("lost_") + kMbLossNames[k], "lost by " + law,
+            [k](const E& e) { return e.lost.J[k]; });
+  }
+  channel("car_work", "done by the car on the pedestrian", [](const E& e) { return e.car_work; });
+  channel("interface_work", "done by the interface on the bodies",
+          [](const E& e) { return e.interface_work; });
 }
 
 void Extraction::add_finite_element_energy() {

@@ -242,13 +242,7 @@ void RecordBuilder::Impl::take(const msg::mb_done& m) {
        .substeps = m.substeps,
        .work_us = m.work_us,
        .contacts = m.n_contacts,
-       .kinetic = m.kinetic,
-       .gravity = m.gravity,
-       .joint_elastic = m.joint_elastic,
-       .joint_dissipated = m.joint_dissipated,
-       .contact_absorbed = m.contact_absorbed,
-       .car_work = m.car_work,
-       .interface_work = m.interface_work,
+       .energy = reply.energy,
        .bodies = reply.bodies};
 }
 

@@ -44,8 +44,7 @@ struct MbWindow {
   std::int64_t t_ns = 0;
   std::int64_t seq = -1;
   int substeps = 0, work_us = 0, contacts = 0;
-  double kinetic = 0, gravity = 0, joint_elastic = 0, joint_dissipated = 0;  ///< J
-  double contact_absorbed = 0, car_work = 0, interface_work = 0;             ///< J
+  MbEnergies energy;
   std::vector<BodyMotion> bodies;
 };
 

@@ -108,6 +108,19 @@ void add_combined(ReportTable& table, const CombinedScores& c) {
   table.rows.push_back({"HARM", fmt::format("{:.2f}", c.HARM), "–", ""});
 }
 
+ReportTable energy_table(const Summary& s) {
+  ReportTable table{"Energy of the bodies at the end",
+                    "What the car put in, where it is, and which law took it (docs/multibody.md).",
+                    {"book", "energy", "unit"},
+                    {}};
+  table.rows.push_back({"held at the start", fmt::format("{:.1f}", s.mb->start), "J"});
+  for (auto [name, energy] : energy_rows(s.mb->end)) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    table.rows.push_back({name, fmt::format("{:.1f}", energy), "J"});
+  }
+  return table;
+}
+
 ReportTable injury_table(const Summary& s) {
   ReportTable table{"Head injury metrics",
                     "Head COG in SAE J211 axes; linear acceleration CFC 1000, angular velocity CFC "
@@ -192,6 +205,7 @@ std::vector<ReportTable> run_tables(const Summary& s) {
   if (!s.ratings.empty()) tables = {cora_table(s), iso_table(s)};
   if (s.card.linear || s.card.rotation) tables.push_back(injury_table(s));
   if (!s.card.risks.empty()) tables.push_back(risk_table(s));
+  if (s.mb) tables.push_back(energy_table(s));
   if (!s.published.empty()) tables.push_back(published_table(s));
   return tables;
 }

@@ -92,6 +92,23 @@ void add_impact(Rows& rows, const Summary& s) {
   rows.hold_against_band("head_contact_speed_ratio", " times the car's speed");
 }
 
+void add_aftermath(Rows& rows, const Summary& s) {
+  if (s.after.head_on_road) {
+    const RoadImpact& r = *s.after.head_on_road;
+    rows.add(kInjury, "HIC15 on the road", fmt::format("{:.0f}", r.HIC15.value), "").note =
+        fmt::format(
+            "The head strikes the road at {:.0f} ms, peak {:.0f} g; before, by the car: {:.0f}.",
+            1e3 * r.time, r.peak_g, r.HIC15_before.value);
+    rows.hold_against_limit(r.HIC15.value, kHic15Limit, "up to 700 (FMVSS 208)", Verdict::Bad);
+  }
+  if (s.after.thrown && s.after.thrown->rest_time) {
+    rows.add(kImpact, "Throw distance", fmt::format("{:.1f}", s.after.thrown->distance), "m").note =
+        fmt::format("Of the centre of mass, along the car's travel; at rest after {:.1f} s.",
+                    *s.after.thrown->rest_time);
+    rows.hold_against_band("throw_distance_m");
+  }
+}
+
 std::string risk_note(const Summary& s, const char* family, const char* level, const char* words) {
   const auto risk = risk_of(s, family, level);
   return risk ? fmt::format(" {:.0f} % risk of {} ({}).", 100 * *risk, words, level) : "";
@@ -169,6 +186,12 @@ void add_quality(Rows& rows, const Summary& s) {
                     s.coupling->exchanged),
         3);
   }
+  if (s.mb) {
+    add_limited(
+        rows, "Multibody energy balance", s.mb->balance_percent, 1, "%",
+        "Gravity, contacts, joints, friction and the car's work: energy unaccounted for, of "
+        "the peak kinetic energy.");
+  }
   if (s.fe) {
     add_limited(rows, "Finite-element energy balance", s.fe->balance_percent, 2, "%",
                 "Energy unaccounted for, of the peak.");
@@ -215,6 +238,7 @@ std::vector<VerdictRow> verdict_of(const Summary& summary) {
   Rows rows(summary);
   add_impact(rows, summary);
   add_injury(rows, summary);
+  add_aftermath(rows, summary);
   add_agreement(rows, summary);
   add_quality(rows, summary);
   return rows.take();

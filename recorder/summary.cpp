@@ -14,6 +14,7 @@ namespace {
 // Limits the project holds itself to; the last two are those of the seed paper [yu2020, 3.3].
 constexpr double kDriftLimitPercent = 1.0;
 constexpr double kBalanceLimitPercent = 2.0;
+constexpr double kMultibodyLimitPercent = 1.0;
 constexpr double kHourglassLimitPercent = 10.0;
 constexpr double kAddedMassLimitPercent = 2.0;
 
@@ -44,6 +45,19 @@ FiniteElementBalance balance_of(const RunRecord& record) {
     b.added_mass_percent = 100 * b.added_mass / *mass;
   }
   return b;
+}
+
+std::optional<MultibodyBalance> multibody_balance_of(const RunRecord& record) {
+  if (record.mb.empty()) return std::nullopt;
+  const MbEnergies& first = record.mb.begin()->second.energy;
+  const double start = first.held() - first.supplied();
+  double worst = 0, peak = 0;
+  for (const auto& [window, w] : record.mb) {
+    peak = std::max(peak, w.energy.kinetic);
+    worst = std::max(worst, std::abs(w.energy.held() - w.energy.supplied() - start));
+  }
+  if (!(peak > 0)) return std::nullopt;
+  return MultibodyBalance{start, record.mb.rbegin()->second.energy, 100 * worst / peak};
 }
 
 CouplingQuality quality_of(const RunRecord& record) {
@@ -112,6 +126,7 @@ void warn_limits(Summary& s) {
     s.warnings.push_back(
         fmt::format("{} is {:.2f} %, above the limit of {:g} %", what, value, most));
   };
+  if (s.mb) limit("multibody energy balance error", s.mb->balance_percent, kMultibodyLimitPercent);
   if (s.coupling && s.fe)
     limit("interface audit drift", s.coupling->drift_percent, kDriftLimitPercent);
   if (!s.fe) return;
@@ -226,7 +241,9 @@ Summary summarize(const RunRecord& record, const RunChannels& channels,
   } catch (const SignalError& error) {
     s.warnings.push_back(std::string("no injury metrics: ") + error.what());
   }
+  s.after = aftermath_of(record, channels);
   s.tissue = tissue_of(record, channels.t0);
+  s.mb = multibody_balance_of(record);
   if (!record.fe.empty()) s.fe = balance_of(record);
   if (!record.audit.empty()) s.coupling = quality_of(record);
   s.timing = timing_of(record);
@@ -253,6 +270,12 @@ std::optional<double> summary_quantity(const Summary& s, const std::string& quan
       return c.relative_speed / c.buck_speed;
     if (quantity == "wrap_around_distance_mm" && c.wrap_around_distance)
       return 1e3 * *c.wrap_around_distance;
+  }
+  if (s.after.thrown && s.after.thrown->rest_time && quantity == "throw_distance_m")
+    return s.after.thrown->distance;
+  if (s.after.head_on_road) {  // the bands speak of the car's blow
+    if (quantity == "peak_g") return s.after.head_on_road->peak_g_before;
+    if (quantity == "HIC15") return s.after.head_on_road->HIC15_before.value;
   }
   if (s.card.linear) {
     if (quantity == "peak_g") return s.card.linear->peak_g;

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "recorder/aftermath.h"
 #include "recorder/extract.h"
 #include "recorder/reference.h"
 #include "recorder/run_rating.h"
@@ -21,6 +22,13 @@ struct FiniteElementBalance {
   double hourglass_percent = 0;  ///< at the end, of the internal energy
   double added_mass = 0;         ///< kg, by mass scaling
   std::optional<double> added_mass_percent;  ///< when the description tells the mass
+};
+
+/// Books of the multibody side over the run.
+struct MultibodyBalance {
+  double start = 0;  ///< J, held at the start
+  MbEnergies end;
+  double balance_percent = 0;  ///< largest error against what was supplied, of the peak kinetic
 };
 
 struct CouplingQuality {
@@ -65,8 +73,10 @@ struct Summary {
   bool has_first_contact = false;
   std::optional<double> initial_buck_speed;
   std::optional<HeadContact> head_contact;
+  Aftermath after;
   ScoreCard card;
   std::vector<RegionPeak> tissue;
+  std::optional<MultibodyBalance> mb;  ///< absent when no body moves by itself
   std::optional<FiniteElementBalance> fe;
   std::optional<CouplingQuality> coupling;
   Timing timing;

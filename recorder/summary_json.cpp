@@ -45,8 +45,32 @@ ordered_json head_contact_block(const Summary& s) {
   return out;
 }
 
+ordered_json window(const WindowMaximum& w) {
+  return {{"value", w.value}, {"t1", optional(w.t1)}, {"t2", optional(w.t2)}};
+}
+
+ordered_json road_block(const Summary& s) {
+  if (!s.after.head_on_road) return nullptr;
+  const RoadImpact& r = *s.after.head_on_road;
+  return {{"time_ms", 1e3 * r.time},
+          {"peak_force_N", r.peak_force},
+          {"peak_g", r.peak_g},
+          {"HIC15", window(r.HIC15)},
+          {"peak_g_before", r.peak_g_before},
+          {"HIC15_before", window(r.HIC15_before)}};
+}
+
+ordered_json throw_block(const Summary& s) {
+  if (!s.after.thrown) return nullptr;
+  const Throw& t = *s.after.thrown;
+  return {{"distance_m", t.distance},     {"sideways_m", t.sideways},
+          {"highest_m", t.highest},       {"end_time_ms", 1e3 * t.end_time},
+          {"end_speed_mps", t.end_speed}, {"rest_time_ms", optional(t.rest_time, 1e3)}};
+}
+
 ordered_json quality_block(const Summary& s) {
   ordered_json out = ordered_json::object();
+  if (s.mb) out["mb_balance_percent"] = s.mb->balance_percent;
   if (s.fe) {
     out["fe_peak_energy_J"] = s.fe->peak_energy;
     out["fe_balance_percent"] = s.fe->balance_percent;
@@ -65,6 +89,13 @@ ordered_json quality_block(const Summary& s) {
     out["resends"] = s.coupling->resends;
     out["iterations_per_window"] = s.coupling->iterations;
   }
+  return out;
+}
+
+ordered_json energy_block(const Summary& s) {
+  if (!s.mb) return nullptr;
+  ordered_json out = {{"held_at_the_start_J", s.mb->start}};
+  for (const auto& [name, energy] : energy_rows(s.mb->end)) out[name + "_J"] = energy;
   return out;
 }
 
@@ -110,9 +141,12 @@ ordered_json to_json(const Summary& s) {
                    {"doubled", s.doubled},
                    {"lost", s.lost}};
   out["head_contact"] = head_contact_block(s);
+  out["head_on_road"] = road_block(s);
+  out["throw"] = throw_block(s);
   out["injury"] = to_json(s.card);
   out["injury"]["filter"] = "CFC 1000 linear, CFC 60 angular (ISO 6487), per component";
   out["tissue"] = tissue_block(s);
+  out["multibody_energy"] = energy_block(s);
   out["quality"] = quality_block(s);
   out["bands"] = band_block(s);
   out["ratings"] = to_json(s.ratings);

@@ -1,4 +1,6 @@
 // summary.txt: the table a newcomer reads at the end of a run.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "recorder/summary.h"
@@ -14,8 +16,11 @@ class Table {
   void title(const std::string& text) { out_ += text + "\n" + std::string(kWidth, '-') + "\n"; }
   void row(const std::string& what, const std::string& value, const std::string& remark = {}) {
     std::string line = fmt::format("  {:<34}{:>14}   {}", what, value, remark);
-    while (!line.empty() && line.back() == ' ') line.pop_back();
-    out_ += line + "\n";
+    this->line(line);
+  }
+  void line(std::string text) {
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    out_ += text + "\n";
   }
   void text(const std::string& mark, const std::string& words) {
     std::string line = "  " + mark;
@@ -74,6 +79,33 @@ void head_rows(Table& t, const Summary& s) {
   t.gap();
 }
 
+constexpr double kThrowShown = 0.5;  // s: no pedestrian is at rest before
+
+void aftermath_rows(Table& t, const Summary& s) {
+  const auto& [road, thrown] = s.after;
+  const bool is_long = thrown && thrown->end_time > kThrowShown;
+  if (!road && !is_long) return;
+  t.title("After the car");
+  if (is_long) {
+    t.row("throw distance", fmt::format("{:.2f} m", thrown->distance),
+          thrown->rest_time
+              ? fmt::format("centre of mass, along the car's travel; at rest after {:.0f} ms",
+                            1e3 * *thrown->rest_time)
+              : fmt::format("so far: the body still moves at {:.2f} m/s", thrown->end_speed));
+    t.row("highest centre of mass", fmt::format("{:.2f} m", thrown->highest));
+  }
+  if (road) {
+    t.row("head on the road", fmt::format("{:.0f} ms", 1e3 * road->time),
+          fmt::format("peak force {:.2f} kN, peak acceleration {:.0f} g", 1e-3 * road->peak_force,
+                      road->peak_g));
+    t.row("HIC15 on the road", fmt::format("{:.0f}", road->HIC15.value),
+          fmt::format("{:.0f} before it, from the car", road->HIC15_before.value));
+  } else {
+    t.row("head on the road", "no", "no force above 50 N");
+  }
+  t.gap();
+}
+
 void tissue_rows(Table& t, const Summary& s) {
   if (s.tissue.empty()) return;
   t.title("Brain tissue (first principal Green strain)");
@@ -84,8 +116,32 @@ void tissue_rows(Table& t, const Summary& s) {
   t.gap();
 }
 
+void energy_table(Table& t, const Summary& s) {
+  if (!s.mb) return;
+  t.title("Energy of the bodies at the end, J");
+  std::string line;
+  std::vector<std::pair<std::string, double>> rows = energy_rows(s.mb->end);
+  rows.emplace(rows.begin(), "held at the start", s.mb->start);
+  for (auto& [name, energy] : rows) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    line += fmt::format("  {:<30}{:>10.1f}", name, energy);
+    if (line.size() < 50) {
+      line += "    ";
+      continue;
+    }
+    t.line(line);
+    line.clear();
+  }
+  if (!line.empty()) t.line(line);
+  t.gap();
+}
+
 void quality_rows(Table& t, const Summary& s) {
   t.title("Quality of the run");
+  if (s.mb) {
+    t.row("multibody energy balance", fmt::format("{:.2f} %", s.mb->balance_percent),
+          "of the peak kinetic energy, all laws; limit 1 %");
+  }
   if (s.fe) {
     t.row("finite-element energy balance", fmt::format("{:.2f} %", s.fe->balance_percent),
           "limit 2 %");
@@ -163,7 +219,9 @@ std::string to_text(const Summary& s) {
         s.has_first_contact ? "of simulated time; zero of all times below" : "");
   t.gap();
   head_rows(t, s);
+  aftermath_rows(t, s);
   tissue_rows(t, s);
+  energy_table(t, s);
   quality_rows(t, s);
   band_rows(t, s);
   rating_rows(t, s);

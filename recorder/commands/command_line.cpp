@@ -86,10 +86,11 @@ Action define_export(CLI::App& app) {
   auto request = std::make_shared<ExportRequest>();
   app.add_option("run", request->run, "Run folder")->required();
   app.add_option("--format", request->format,
-                 "csv or isomme; motion, impact_motion: head and car, from the first "
+                 "csv or isomme; bodies: poses of all bodies; motion, impact_motion: head and car, "
+                 "from the first "
                  "contact or from 2 ms before the head's, for a head alone")
       ->capture_default_str()
-      ->check(CLI::IsMember({"csv", "isomme", "motion", "impact_motion"}));
+      ->check(CLI::IsMember({"csv", "isomme", "bodies", "motion", "impact_motion"}));
   app.add_option("--out", request->out,
                  "Folder to write into; export/ in the run folder by default");
   return

@@ -39,7 +39,7 @@ struct AnalyzeRequest {
 
 struct ExportRequest {
   std::filesystem::path run;
-  std::string format = "csv";  ///< csv, isomme, motion or impact_motion
+  std::string format = "csv";  ///< csv, isomme, bodies, motion or impact_motion
   std::filesystem::path out;   ///< empty: <run>/export
 };
 

@@ -88,6 +88,11 @@ ExitCode export_run(const ExportRequest& request) {
     fmt::print("motion of head and car in {}\n", file.string());
     return ExitCode::Done;
   }
+  if (request.format == "bodies") {
+    write_bodies_csv(out / "bodies.csv", read_run_record(RunDirectory(request.run).signals()));
+    fmt::print("poses of all bodies in {}\n", (out / "bodies.csv").string());
+    return ExitCode::Done;
+  }
   const std::vector<Channel> channels = channels_of_run(request.run);
   if (request.format == "isomme") {
     const MmeTest test = as_isomme(request.run, channels);

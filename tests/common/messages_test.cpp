@@ -66,12 +66,21 @@ TEST(Messages, GrantsSurviveTheWireBitForBitAfterRounding) {
 
 TEST(Messages, RepliesSurviveTheWire) {
   MbReply mb;
-  mb.kinetic = 1, mb.gravity = 2, mb.joint_elastic = 3, mb.joint_dissipated = 4;
-  mb.contact_absorbed = 5, mb.car_work = 6, mb.interface_work = 7, mb.first_contact = true;
+  mb.energy = {.kinetic = 1,
+               .gravity = 2,
+               .joint_elastic = 3,
+               .contact_elastic = 4,
+               .lost = {{8, 9, 10, 11, 12, 13, 14}},
+               .car_work = 6,
+               .interface_work = 7,
+               .stepping = 5};
+  mb.first_contact = true;
   mb.bodies = {some_motion()};
   const MbReply mb_back = from_message(to_message(WindowId{3, 20000}, mb));
-  EXPECT_EQ(mb_back.interface_work, 7);
-  EXPECT_EQ(mb_back.car_work, 6);
+  EXPECT_EQ(mb_back.energy.held(), mb.energy.held());
+  EXPECT_EQ(mb_back.energy.supplied(), 13);
+  EXPECT_EQ(mb_back.energy.lost.J, mb.energy.lost.J);
+  EXPECT_EQ(mb_back.energy.stepping, 5);
   EXPECT_TRUE(mb_back.first_contact);
   EXPECT_EQ(mb_back.bodies.at(0).V_WB.w, some_motion().V_WB.w);
 

@@ -210,8 +210,8 @@ MbReply NeckBodies::advance(const MbGrant& grant, RecordSink&) {
   }
   for (int k = 0; k < n; ++k) substep(grant, h, k == 0);
   reply_.substeps = n;
-  reply_.kinetic = world_->kinetic_energy();
-  reply_.interface_work = now_.work;
+  reply_.energy.kinetic = world_->kinetic_energy();
+  reply_.energy.interface_work = now_.work;
   for (int i = 0; i < attached(); ++i) reply_.bodies.push_back(motion(i));
   return reply_;
 }

@@ -43,8 +43,8 @@ class CoupledNeck {
     for (int i = 0; i < windows && outcome.is_stable; ++i) {
       try {
         const WindowResult result = advance(window_ns);
-        outcome.energy = result.mb.kinetic + fe_.energy();
-        outcome.drift = result.mb.interface_work + result.fe.interface_work;
+        outcome.energy = result.mb.energy.kinetic + fe_.energy();
+        outcome.drift = result.mb.energy.interface_work + result.fe.interface_work;
         outcome.passes += double(result.iterations) / windows;
         for (const BodyLoad& load : result.fe.loads)
           outcome.gap = std::max(outcome.gap, load.gap_position.norm());

@@ -128,7 +128,7 @@ TEST(Mic, InterfaceWorkOfBothSidesAgrees) {
     last = result.fe.interface_work;
   }
   EXPECT_GT(exchanged, 10);
-  EXPECT_NEAR(result.mb.interface_work + result.fe.interface_work, 0, 0.001 * exchanged);
+  EXPECT_NEAR(result.mb.energy.interface_work + result.fe.interface_work, 0, 0.001 * exchanged);
 }
 
 TEST(Mic, WindowLengthsFromTwoToAHundredMicrosecondsGiveTheSameMotion) {
@@ -173,7 +173,7 @@ TEST(Implicit, DoesAWindowInPartsThatDoesNotConvergeAsAWhole) {
     const WindowResult result = advance_window(settings, state, 100000, mb_link, fe_link);
     EXPECT_GT(result.parts, 1);
     EXPECT_EQ(result.id.window, i);
-    const double now = result.mb.kinetic + result.fe.kinetic + result.fe.internal;
+    const double now = result.mb.energy.kinetic + result.fe.kinetic + result.fe.internal;
     (i < 200 ? early : late) = std::max(i < 200 ? early : late, now);
     // Momentum, the pending impulse included.
     const double scale = 10 * std::abs(fe.now().v) + std::abs(mb.now().v);

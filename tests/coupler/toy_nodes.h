@@ -77,9 +77,9 @@ class Mb : public MbParticipant {
     ++steps_;
     reply_.substeps = n;
     reply_.first_contact = true;
-    reply_.kinetic = 0.5 * now_.mass * now_.v * now_.v;
-    reply_.car_work = pushed_;
-    reply_.interface_work = work_;
+    reply_.energy.kinetic = 0.5 * now_.mass * now_.v * now_.v;
+    reply_.energy.car_work = pushed_;
+    reply_.energy.interface_work = work_;
     reply_.bodies = {motion()};
     if (fail_at_window >= 0 && grant.id.window == fail_at_window) reply_.bodies[0].V_WB.v[1] = NAN;
     return reply_;

@@ -45,7 +45,7 @@ Flight tumble(double duration) {
     if (k % 100 != 99) continue;
     worst.linear = std::max(worst.linear, (world.linear_momentum() - P0).norm() / P0.norm());
     worst.angular = std::max(worst.angular, (angular() - L0).norm() / L0.norm());
-    worst.drift = std::max(worst.drift, world.joint_drift());
+    worst.drift = std::max(worst.drift, world.joint_drift().distance);
     const double held = world.kinetic_energy() + dynamics.joint_energy(state) +
                         dynamics.contact_energy(state) + state.energy.lost.sum();
     // Of the energy of tumbling, without the flight of the centre.

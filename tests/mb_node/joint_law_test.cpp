@@ -124,6 +124,27 @@ TEST(Bone, BreaksOnceAtItsMoment) {
   EXPECT_NEAR(after.total()[0], -0.02 * 1.01 * 310, 0.05);
 }
 
+TEST(Bone, BrokenFoldsPastARightAngleWithoutAJumpOfTheMoment) {
+  // Lateral fold of a tumbling leg: Cardan angles end at 90 deg, where a moment over their rates
+  // grows without bound.
+  const BodyDescription body = load_subject("male_50");
+  const JointRestraint& restraint = body.segments[body.find_segment("tibia_3_l")].restraint;
+  BoneHistory history{true};
+  const Vec3 w(3, 2, -1);
+  Vec3 before = Vec3::Zero();
+  for (double fold = 80; fold <= 110; fold += 0.5) {
+    const JointMotion motion =
+        joint_motion(JointType::Ball, restraint.coordinates, Mat3::Identity(),
+                     rotation(Vec3::UnitX(), fold * kDegree), w);
+    const Vec3 torque =
+        motion.dual *
+        bone_moment(restraint.bone, motion.angle, motion.rate, false, history).total();
+    EXPECT_LT(torque.norm(), 400) << fold;
+    if (fold > 80) EXPECT_LT((torque - before).norm(), 10) << fold;
+    before = torque;
+  }
+}
+
 TEST(PassiveMoments, MatchThePublishedCurves) {
   // N m, evaluated independently from the coefficients of [riener1999].
   const double deg = kDegree;

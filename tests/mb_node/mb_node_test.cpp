@@ -84,8 +84,8 @@ TEST(MbNode, CarriedImpulseChangesVelocitiesByTheMobility) {
     change.segment<6>(6 * i) = stack(b.bodies[i].V_WB) - stack(a.bodies[i].V_WB);
   }
   EXPECT_LT((change - expected).norm(), 2e-4 * expected.norm());
-  EXPECT_GT(b.interface_work, 0);
-  EXPECT_EQ(a.interface_work, 0);
+  EXPECT_GT(b.energy.interface_work, 0);
+  EXPECT_EQ(a.energy.interface_work, 0);
 }
 
 TEST(MbNode, BiasActsOverTheWholeWindow) {
@@ -158,7 +158,7 @@ TEST(MbNode, TouchesTheCarWhenTheGapIsClosed) {
   MbReply reply;
   for (int k = 0; k < 9; ++k) reply = node.advance(grant(k), sink);
   EXPECT_FALSE(reply.first_contact);
-  EXPECT_LT(reply.kinetic, 1e-18);
+  EXPECT_LT(reply.energy.kinetic, 1e-18);
   for (int k = 9; k < 12; ++k) reply = node.advance(grant(k), sink);
   EXPECT_TRUE(reply.first_contact);
   EXPECT_NEAR(node.state().first_contact_time, 0.18e-3, 0.03e-3);

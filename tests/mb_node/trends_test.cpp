@@ -1,4 +1,6 @@
 // The multibody pedestrian against published trends and bands, in whole impacts (label validation).
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "mb_node/study.h"
@@ -79,6 +81,26 @@ TEST(Trends, StifferGlassRaisesThePeakAcceleration) {
   };
   EXPECT_LT(with_glass(0.7), with_glass(1.0));
   EXPECT_LT(with_glass(1.0), with_glass(1.5));
+}
+
+// Searle's relation has a launch and a slide of friction mu: s between v^2 / (2 mu g) and
+// (1 + mu^2) times that. A wrapped pedestrian is carried by the hood first, at nearly the launch
+// speed, while the car brakes away beneath: until the car has fallen back by the way from the
+// head's place on the glass to the nose, that is for sqrt(2 L / a). Upper bound: all that way at
+// the car's speed, then the slide.
+TEST(Throw, LiesBetweenSearlesSlideAndARideOnTheBrakingHood) {
+  constexpr double kMu = 0.66, g = 9.81;                 // as docs/validation.md
+  constexpr double kBraking = 0.7 * g, kOnTheCar = 1.5;  // m behind the nose
+  for (const double speed_km_h : {25.0, 40.0}) {
+    const double v = speed_km_h / 3.6, slide = v * v / (2 * kMu * g);
+    const double ride = v * std::min(v / kBraking, std::sqrt(2 * kOnTheCar / kBraking));
+    const SoloSummary s =
+        impact("throw_40", "[vehicle]\nspeed_km_h = " + std::to_string(speed_km_h) + "\n", 3.0);
+    EXPECT_GT(s.throw_distance, slide) << speed_km_h;
+    EXPECT_LT(s.throw_distance, slide + ride) << speed_km_h;
+    EXPECT_LT(s.rest_speed, 0.2) << speed_km_h;
+    EXPECT_LT(s.energy_error, 0.01) << speed_km_h;
+  }
 }
 
 }  // namespace

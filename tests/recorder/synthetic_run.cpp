@@ -128,7 +128,9 @@ void Writer::mb(std::int64_t k, std::int64_t t_ns) {
   m.t_ns = t_ns;
   m.n_bodies = 2;
   m.kinetic = 100 * t;
+  m.lost[1] = 10 * t;
   m.interface_work = -2 * t;
+  m.car_work = 112 * t;
   m.n_records = records[Role::Mb];
   for (auto& body : m.body) body.quaternion[0] = 1;
   m.body[1].position[1] = 0.3 + Run::kBuckSpeed * t;

@@ -3,8 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
 
-namespace crosswalk::mb {
+namespace crosswalk {
 
 /// What the multibody side's laws take out of the motion for good, one book each.
 enum class MbLoss : int {
@@ -50,4 +53,19 @@ struct MbEnergies {
   }
 };
 
-}  // namespace crosswalk::mb
+/// Every book under its name, in the order in which they are printed.
+inline std::vector<std::pair<std::string, double>> energy_rows(const MbEnergies& e) {
+  std::vector<std::pair<std::string, double>> rows = {{"car_work", e.car_work},
+                                                      {"interface_work", e.interface_work},
+                                                      {"kinetic", e.kinetic},
+                                                      {"gravity", e.gravity},
+                                                      {"stored_in_joints", e.joint_elastic},
+                                                      {"stored_in_contacts", e.contact_elastic}};
+  for (std::size_t k = 0; k < kMbLosses; ++k) {
+    rows.emplace_back(std::string("lost_by_") + kMbLossNames[k], e.lost.J[k]);
+  }
+  rows.emplace_back("gained_by_steps", e.stepping);
+  return rows;
+}
+
+}  // namespace crosswalk

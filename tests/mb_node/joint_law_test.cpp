@@ -140,7 +140,9 @@ TEST(Bone, BrokenFoldsPastARightAngleWithoutAJumpOfTheMoment) {
         motion.dual *
         bone_moment(restraint.bone, motion.angle, motion.rate, false, history).total();
     EXPECT_LT(torque.norm(), 400) << fold;
-    if (fold > 80) EXPECT_LT((torque - before).norm(), 10) << fold;
+    if (fold > 80) {
+      EXPECT_LT((torque - before).norm(), 10) << fold;
+    }
     before = torque;
   }
 }

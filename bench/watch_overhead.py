@@ -8,13 +8,16 @@ Runs are interleaved, every round in another order, so that a machine that speed
 meets all kinds alike. Compared is the time from the first to the last message of the run
 (`timing.wall_s` of summary.json): starting the processes and writing the report are not part of it.
 Prints medians and the median of the ratios round by round; the limit is 2 per cent. Meaningful only
-on a machine that does nothing else.
+on a machine that does nothing else. Beside it stands the processor time of all processes of a run,
+start and report included, which tells how much more work a run with the page is on a busy machine
+too.
 """
 
 import argparse
 import json
 import pathlib
 import re
+import resource
 import shutil
 import statistics
 import subprocess
@@ -49,6 +52,7 @@ def run_once(kind, options, folder):
         command += ["--until-ms", str(options.until_ms)]
     if kind != "plain":
         command.append("--watch")
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     reader = visit_and_leave if kind == "browser left" else lambda lines: [None for _ in lines]
     thread = threading.Thread(target=reader, args=(process.stdout,))
@@ -57,7 +61,9 @@ def run_once(kind, options, folder):
     thread.join()
     if code != 0:
         raise SystemExit(f"{' '.join(command)} ended with {code}")
-    return json.loads((folder / "summary.json").read_text())["timing"]["wall_s"]
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    work = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return json.loads((folder / "summary.json").read_text())["timing"]["wall_s"], work
 
 
 def main():
@@ -69,17 +75,20 @@ def main():
     parser.add_argument("--until-ms", type=float)
     parser.add_argument("--rounds", type=int, default=5)
     options = parser.parse_args()
-    times = {kind: [] for kind in KINDS}
+    times, works = ({kind: [] for kind in KINDS} for _ in range(2))
     with tempfile.TemporaryDirectory(prefix="cw_watch_") as folder:
         for i in range(options.rounds):
             for kind in KINDS[i % 3:] + KINDS[:i % 3]:
-                times[kind].append(run_once(kind, options, pathlib.Path(folder) / "run"))
+                time, work = run_once(kind, options, pathlib.Path(folder) / "run")
+                times[kind].append(time)
+                works[kind].append(work)
             print("  ".join(f"{kind} {times[kind][-1]:.3f} s" for kind in KINDS), flush=True)
-    print(f"\n{'kind':<14}{'median':>9}{'fastest':>9}   against plain, round by round")
-    for kind in KINDS:
-        ratios = [b / a - 1 for a, b in zip(times["plain"], times[kind])]
-        print(f"{kind:<14}{statistics.median(times[kind]):>7.3f} s{min(times[kind]):>7.3f} s"
-              f"   {100 * statistics.median(ratios):+.2f} %")
+    for what, values in (("time of the run", times), ("processor time", works)):
+        print(f"\n{what:<18}{'median':>9}{'fastest':>9}   against plain, round by round")
+        for kind in KINDS:
+            ratios = [b / a - 1 for a, b in zip(values["plain"], values[kind])]
+            print(f"{kind:<18}{statistics.median(values[kind]):>7.3f} s{min(values[kind]):>7.3f} s"
+                  f"   {100 * statistics.median(ratios):+.2f} %")
 
 
 if __name__ == "__main__":

@@ -1,12 +1,14 @@
 #include "common/datagram_filter.h"
 
 #include <cstdint>
+#include <utility>
 
 #include <linux/filter.h>
 #include <linux/if_packet.h>
 #include <netinet/in.h>
-#include <sys/select.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include "common/protocol.h"
 
@@ -88,21 +90,6 @@ void accept_beginning(Program& program, const std::string& text) {
 
 }  // namespace
 
-std::set<int> udp_sockets() {
-  std::set<int> found;
-  for (int number = 0; number < FD_SETSIZE; ++number) {  // LCM uses select()
-    int type = 0;
-    socklen_t size = sizeof type;
-    if (getsockopt(number, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_DGRAM) continue;
-    sockaddr_in address{};
-    size = sizeof address;
-    if (getsockname(number, reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
-        address.sin_family == AF_INET)
-      found.insert(number);
-  }
-  return found;
-}
-
 bool let_through_only(int socket, const std::vector<std::string>& patterns, Origin origin) {
   Program program;
   program.load(BPF_H, kUdpLength);
@@ -121,4 +108,24 @@ bool let_through_only(int socket, const std::vector<std::string>& patterns, Orig
   return program.attach(socket);
 }
 
+namespace {
+thread_local FilterAtBind* at_bind = nullptr;
+}
+
+FilterAtBind::FilterAtBind(std::vector<std::string> patterns, Origin origin)
+    : patterns_(std::move(patterns)), origin_(origin) {
+  at_bind = this;
+}
+FilterAtBind::~FilterAtBind() { at_bind = nullptr; }
+
+void FilterAtBind::put_on(int socket) {
+  if (let_through_only(socket, patterns_, origin_)) socket_ = socket;
+}
+
 }  // namespace crosswalk
+
+/// Stands before the C library's for every call of this process, LCM's included.
+extern "C" int bind(int socket, const sockaddr* address, socklen_t size) noexcept {
+  if (crosswalk::at_bind != nullptr) crosswalk::at_bind->put_on(socket);
+  return static_cast<int>(syscall(SYS_bind, socket, address, size));
+}

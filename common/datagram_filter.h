@@ -8,7 +8,6 @@
 // what the filter drops costs the waiting process nothing.
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -17,10 +16,27 @@ namespace crosswalk {
 /// Where datagrams may come from.
 enum class Origin { ThisMachine, Anywhere };
 
-/// File numbers of this process's UDP sockets.
-std::set<int> udp_sockets();
 /// Lets through what fits one of the patterns, regular expressions for whole channel names, as far
 /// as their literal beginnings tell. False, with errno, when the kernel refuses.
 bool let_through_only(int socket, const std::vector<std::string>& patterns, Origin origin);
+
+/// While it lives, a socket that this thread binds gets the filter before it can receive anything.
+/// LCM binds its receiver and begins to read within one call, and shows the socket to nobody: a
+/// filter set afterwards comes too late for a datagram that was quicker.
+class FilterAtBind {
+ public:
+  FilterAtBind(std::vector<std::string> patterns, Origin origin);
+  ~FilterAtBind();
+  FilterAtBind(const FilterAtBind&) = delete;
+  FilterAtBind& operator=(const FilterAtBind&) = delete;
+  /// The socket that has the filter, or -1.
+  int socket() const { return socket_; }
+  void put_on(int socket);
+
+ private:
+  std::vector<std::string> patterns_;
+  Origin origin_;
+  int socket_ = -1;
+};
 
 }  // namespace crosswalk

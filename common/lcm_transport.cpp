@@ -47,14 +47,17 @@ class LcmTransport : public Transport {
   bool good() { return lcm_.good(); }
 
   bool subscribe(const std::string& pattern, MessageHandler handler) override {
-    const std::set<int> before = patterns_.empty() ? udp_sockets() : std::set<int>{};
     subscribers_.push_back(Subscriber{std::move(handler), &failure_});
-    lcm::Subscription* subscription =
-        lcm_.subscribe(pattern, &Subscriber::on_message, &subscribers_.back());
-    if (subscription == nullptr) return false;
-    subscription->setQueueCapacity(0);  // LCM drops silently beyond 30 otherwise
-    patterns_.push_back(pattern);
-    if (filter_) renew_filter(before);
+    if (filter_ && patterns_.empty()) {
+      // LCM opens its receiving socket with the first subscription, and tries it out.
+      FilterAtBind filter({"LCM_SELF_TEST", pattern}, *filter_);
+      if (!add(pattern)) return false;
+      receiver_ = filter.socket();
+    } else if (!add(pattern)) {
+      return false;
+    }
+    if (filter_ && (receiver_ < 0 || !let_through_only(receiver_, patterns_, *filter_)))
+      log_warning("no filter in front of LCM's socket: forged fragments are not kept out");
     return true;
   }
 
@@ -69,15 +72,13 @@ class LcmTransport : public Transport {
   }
 
  private:
-  /// LCM opens its receiving socket with the first subscription and shows it to nobody: it is the
-  /// one that was not there before.
-  void renew_filter(const std::set<int>& before) {
-    if (patterns_.size() == 1) {
-      for (const int number : udp_sockets())
-        if (!before.contains(number)) receiver_ = number;
-    }
-    if (receiver_ < 0 || !let_through_only(receiver_, patterns_, *filter_))
-      log_warning("no filter in front of LCM's socket: forged fragments are not kept out");
+  bool add(const std::string& pattern) {
+    lcm::Subscription* subscription =
+        lcm_.subscribe(pattern, &Subscriber::on_message, &subscribers_.back());
+    if (subscription == nullptr) return false;
+    subscription->setQueueCapacity(0);  // LCM drops silently beyond 30 otherwise
+    patterns_.push_back(pattern);
+    return true;
   }
 
   lcm::LCM lcm_;

@@ -127,6 +127,8 @@ void NodeSession::leave(ExitCode code, std::string reason) {
 }
 
 void NodeSession::set_state(NodeState state, std::int64_t window) {
+  if (state_ == static_cast<int>(NodeState::Done))
+    return;  // for good: what comes now is a late copy
   state_ = static_cast<int>(state);
   window_ = window;
   if (manifest_ && window >= 0)

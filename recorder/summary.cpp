@@ -56,8 +56,9 @@ std::optional<MultibodyBalance> multibody_balance_of(const RunRecord& record) {
     peak = std::max(peak, w.energy.kinetic);
     worst = std::max(worst, std::abs(w.energy.held() - w.energy.supplied() - start));
   }
-  if (!(peak > 0)) return std::nullopt;
-  return MultibodyBalance{start, record.mb.rbegin()->second.energy, 100 * worst / peak};
+  constexpr double kLeast = 1;  // J; a body that stands has hardly any
+  return MultibodyBalance{start, record.mb.rbegin()->second.energy,
+                          100 * worst / std::max(peak, kLeast)};
 }
 
 CouplingQuality quality_of(const RunRecord& record) {

@@ -6,143 +6,15 @@
 #include <fmt/format.h>
 
 #include "common/error.h"
+#include "fe_node/element_forces.h"
 #include "fe_node/guided_body.h"
 
 namespace crosswalk::fe {
 namespace {
 
-constexpr int kMostCorners = 10;
 constexpr int kNodesPerChunk = 512;
 
 int node_chunk_count(int node_count) { return (node_count + kNodesPerChunk - 1) / kNodesPerChunk; }
-
-void keep_taps(std::vector<Scratch::Tap>& taps, const ElementBlock& block, int first, int last,
-               const double* forces, const double* moments) {
-  for (Scratch::Tap& tap : taps) {
-    const int group = tap.element / kLanes;
-    if (group < first || group >= last) continue;
-    const std::size_t slot = block.corner_slot(group - first, tap.corner, tap.element % kLanes);
-    tap.force = Eigen::Map<const Vec3>(forces + slot);
-    if (block.has_moments()) tap.moment = Eigen::Map<const Vec3>(moments + slot);
-  }
-}
-
-void fetch_nodes(const ForceTiles& tiles, const StepContext& context, int call) {
-  for (int k = tiles.arrivals_begin[call]; k < tiles.arrivals_begin[call + 1]; ++k) {
-    __builtin_prefetch(&context.nodes[tiles.arrivals[k]]);
-    if (!context.spin.empty()) __builtin_prefetch(&context.spin[tiles.arrivals[k]]);
-  }
-}
-
-/// Forces of a tile's elements, added up in its rows.
-void tile_forces(const Model& model, const StepContext& context, const ForceTile& tile,
-                 std::span<double> history, Scratch& scratch, BlockSums& sums,
-                 std::vector<Scratch::Tap>& taps) {
-  const ElementBlock& block = *model.blocks[tile.block];
-  const bool has_moments = block.has_moments();
-  alignas(64) double forces[kGroupsPerCall * kMostCorners * kLanes * kCornerStride] = {};
-  alignas(64) double moments[kGroupsPerCall * 4 * kLanes * kCornerStride] = {};
-  double* force_rows = scratch.force_rows.data() + kCornerStride * tile.force_row;
-  double* moment_rows = scratch.moment_rows.data() + kCornerStride * tile.moment_row;
-  const std::size_t row_doubles = std::size_t{kCornerStride} * (tile.node_count + 1);
-  std::fill_n(force_rows, row_doubles, 0.0);
-  if (has_moments) std::fill_n(moment_rows, row_doubles, 0.0);
-  const std::uint16_t* row = model.tiles.row_of_corner.data() + tile.corner;
-  int call = tile.call;
-  for (int first = tile.first; first < tile.last; first += kGroupsPerCall) {
-    const int last = std::min(first + kGroupsPerCall, tile.last);
-    const int corners = (last - first) * block.corners() * kLanes;
-    fetch_nodes(model.tiles, context, ++call);
-    block.forces(context, history, forces, moments, first, last, sums);
-    add_corners(forces, row, corners, force_rows);
-    if (has_moments) add_corners(moments, row, corners, moment_rows);
-    row += corners;
-    if (!taps.empty()) keep_taps(taps, block, first, last, forces, moments);
-  }
-}
-
-void element_forces(const Model& model, State& state, Scratch& scratch) {
-  const StepContext context{state.nodes,   state.spin, state.time,
-                            state.last_dt, true,       scratch.threads};
-  const int count = static_cast<int>(model.tiles.tiles.size());
-  const bool asleep = is_asleep(model, state);
-  for (std::size_t b = 0; b < model.blocks.size(); ++b)
-    if (model.blocks[b]->has_neighbours() && !(asleep && model.sleeper->blocks[b]))
-      model.blocks[b]->prepare(context, state.history[b]);
-  // Shared out as threads come: elements differ in cost, and every tile has rows of its own.
-#pragma omp parallel for schedule(dynamic) num_threads(scratch.threads)
-  for (int t = 0; t < count; ++t) {
-    const ForceTile& tile = model.tiles.tiles[t];
-    scratch.tile_sums[t] = BlockSums{};
-    if (asleep && model.sleeper->blocks[tile.block]) continue;
-    tile_forces(model, context, tile, state.history[tile.block], scratch, scratch.tile_sums[t],
-                scratch.taps[t]);
-  }
-}
-
-void add(const BlockSums& part, BlockSums& sum) {
-  sum.internal += part.internal;
-  sum.hourglass += part.hourglass;
-  sum.hourglass_dissipated += part.hourglass_dissipated;
-  sum.viscous_dissipated += part.viscous_dissipated;
-  sum.failed += part.failed;
-  if (part.stable_step < sum.stable_step) {
-    sum.stable_step = part.stable_step;
-    sum.critical_element = part.critical_element;
-  }
-  if (part.inverted_element >= 0 && sum.inverted_element < 0) {
-    sum.inverted_element = part.inverted_element;
-    sum.inverted_jacobian = part.inverted_jacobian;
-  }
-}
-
-/// Flags the elements that have failed, when their number has changed: more have failed, or the
-/// state is another one.
-void find_failed(const Model& model, const State& state, Scratch& scratch) {
-  int count = 0;
-  for (const BlockSums& sums : scratch.block_sums) count += sums.failed;
-  if (count == scratch.failed.count) return;
-  scratch.failed.count = count;
-  for (std::vector<char>& dead : scratch.failed.is_dead) std::fill(dead.begin(), dead.end(), 0);
-  for (std::size_t b = 0; b < model.blocks.size(); ++b) {
-    if (scratch.block_sums[b].failed == 0) continue;
-    const ElementBlock& block = *model.blocks[b];
-    std::vector<char>& dead = scratch.failed.is_dead[static_cast<std::size_t>(block.kind())];
-    dead.resize(model.mesh.table(block.kind()).size(), 0);
-    for (int e = 0; e < block.element_count(); ++e)
-      if (!block.is_alive(state.history[b], e)) dead[block.mesh_element(e)] = 1;
-  }
-}
-
-/// Adds the tiles up in their fixed order and books the energies.
-StepReport sum_blocks(const Model& model, State& state, Scratch& scratch) {
-  std::fill(scratch.block_sums.begin(), scratch.block_sums.end(), BlockSums{});
-  for (std::size_t t = 0; t < model.tiles.tiles.size(); ++t)
-    add(scratch.tile_sums[t], scratch.block_sums[model.tiles.tiles[t].block]);
-
-  StepReport report;
-  report.stable_step = std::numeric_limits<double>::infinity();
-  Energies& e = state.energies;
-  e.internal = e.hourglass_stored = 0;
-  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
-    const BlockSums& sums = scratch.block_sums[b];
-    if (sums.inverted_element >= 0)
-      throw NumericalError(
-          state.time,
-          fmt::format("{} has Jacobian {:.3g}", describe_element(model, b, sums.inverted_element),
-                      sums.inverted_jacobian));
-    e.internal += sums.internal;
-    e.hourglass_stored += sums.hourglass;
-    e.hourglass_dissipated += sums.hourglass_dissipated;
-    e.viscous += sums.viscous_dissipated;
-    if (sums.stable_step < report.stable_step) {
-      report.stable_step = sums.stable_step;
-      report.critical_block = b;
-      report.critical_element = sums.critical_element;
-    }
-  }
-  return report;
-}
 
 void contact_forces(const Model& model, State& state, Scratch& scratch, StepReport& report) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {

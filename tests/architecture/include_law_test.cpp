@@ -63,6 +63,7 @@ int fe_layer(const fs::path& file) {
                                                     {"sleeper", 3},
                                                     {"history_requests", 3},
                                                     {"solver", 4},
+                                                    {"element_forces", 4},
                                                     {"explosion", 4},
                                                     {"model_builder", 4},
                                                     {"boundary", 5},

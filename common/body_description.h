@@ -18,11 +18,17 @@
 namespace crosswalk {
 
 enum class JointType { Free, Ball, HingeX, HingeY, HingeZ, UniversalXY, SliderY };
-/// How the three angles of a ball joint are taken from the relative rotation.
+/// How the three angles of a ball joint are taken from a rotation R.
 enum class Coordinates {
   Cardan,     ///< R = Ry(alpha) Rx(beta) Rz(gamma); singular at |beta| = 90 deg
   SwingTwist  ///< swing vector (beta about x, alpha about y) after a twist gamma about the limb
-              ///< axis z
+              ///< axis z; singular at a swing of 180 deg
+};
+/// The angles of a ball joint are those of R = R_PZ^T R_PC, so that the singularity can be laid
+/// where the limb cannot go.
+struct AngleFrame {
+  Coordinates coordinates = Coordinates::Cardan;
+  Mat3 R_PZ = Mat3::Identity();  ///< rotation of the child in its parent at zero angles
 };
 /// Passive moments that depend on the angles of two joints [riener1999].
 enum class PassiveMoment { None, Hip, Knee, Ankle };
@@ -63,7 +69,7 @@ struct BoneLaw {
 };
 
 struct JointRestraint {
-  Coordinates coordinates = Coordinates::Cardan;
+  AngleFrame frame;
   std::array<CoordinateLaw, 3> angle;  ///< alpha (y), beta (x), gamma (z); unused ones stay zero
   BoneLaw bone;                        ///< bending > 0: a bone joint, `angle` unused
   Curve shear;                         ///< m -> N, x >= 0, odd: lateral slider

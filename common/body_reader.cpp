@@ -359,6 +359,8 @@ class SubjectReader {
   }
 
   static void mirror(JointRestraint& restraint) {
+    const Mat3 across = Vec3(1, -1, 1).asDiagonal();
+    restraint.frame.R_PZ = across * restraint.frame.R_PZ * across;
     for (int i = 1; i < 3; ++i) {
       CoordinateLaw& law = restraint.angle[i];
       std::swap(law.min, law.max);

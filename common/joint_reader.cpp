@@ -83,11 +83,17 @@ JointRestraint read_restraint(ConfigTable& table, const BodyFormulas& formulas,
   JointRestraint restraint;
   const double g = formulas.girth(table);
   const double l = formulas.length_ratio(table);
-  restraint.coordinates =
+  restraint.frame.coordinates =
       table.choice_or("coordinates", {"cardan", "swing_twist"}, "cardan",
                       "how the three angles of a ball joint are taken") == "cardan"
           ? Coordinates::Cardan
           : Coordinates::SwingTwist;
+  if (table.has("zero_swing")) {
+    const std::vector<double> swing =
+        table.quantities("zero_swing", Dimension::Angle, 2,
+                         "swing (alpha, beta) of the limb from which its angles are counted");
+    restraint.frame.R_PZ = exp_rotation({swing[1], swing[0], 0}).toRotationMatrix();
+  }
   constexpr std::array<const char*, 3> kNames = {"alpha", "beta", "gamma"};
   for (int i = 0; i < 3; ++i) {
     if (!table.has(kNames[i])) continue;
@@ -99,7 +105,7 @@ JointRestraint read_restraint(ConfigTable& table, const BodyFormulas& formulas,
     restraint.bone = read_bone(bone, formulas, bone_quality, g, l);
     // The same about all lateral axes: the swing is the bend itself, and a broken bone may fold by
     // more than the 90 deg at which Cardan angles end.
-    restraint.coordinates = Coordinates::SwingTwist;
+    restraint.frame.coordinates = Coordinates::SwingTwist;
   }
   if (table.has("shear_x")) {
     restraint.shear = table

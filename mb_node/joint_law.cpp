@@ -61,19 +61,21 @@ double degrees(double angle, double min_deg, double max_deg) {
 
 }  // namespace
 
-JointMotion joint_motion(JointType type, Coordinates coordinates, const Mat3& R_WP,
+JointMotion joint_motion(JointType type, const AngleFrame& frame, const Mat3& R_WP,
                          const Mat3& R_WC, const Vec3& w_relative) {
   const Mat3 R = R_WP.transpose() * R_WC;
   JointMotion motion;
   switch (type) {
     case JointType::Ball: {
+      const Mat3 R_WZ = R_WP * frame.R_PZ;
+      const Mat3 R_ZC = R_WZ.transpose() * R_WC;
       Mat3 axes;
-      if (coordinates == Coordinates::Cardan) {
-        cardan(R, motion.angle, axes);
+      if (frame.coordinates == Coordinates::Cardan) {
+        cardan(R_ZC, motion.angle, axes);
       } else {
-        swing_twist(R, motion.angle, axes);
+        swing_twist(R_ZC, motion.angle, axes);
       }
-      motion.dual = R_WP * axes.inverse().transpose();
+      motion.dual = R_WZ * axes.inverse().transpose();
       break;
     }
     case JointType::HingeY:

@@ -21,7 +21,7 @@ struct JointMotion {
   Vec3 rate = Vec3::Zero();
   Mat3 dual = Mat3::Zero();  ///< columns d_i in W
 };
-JointMotion joint_motion(JointType type, Coordinates coordinates, const Mat3& R_WP,
+JointMotion joint_motion(JointType type, const AngleFrame& frame, const Mat3& R_WP,
                          const Mat3& R_WC, const Vec3& w_relative);
 
 struct StopHistory {

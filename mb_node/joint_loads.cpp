@@ -32,7 +32,7 @@ void JointLoads::apply(const Kinematics& now, MbState& state, std::vector<Wrench
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const int p = segments[i].parent;
     if (p < 0) continue;
-    motions_[i] = joint_motion(segments[i].joint, segments[i].restraint.coordinates, now.R[p],
+    motions_[i] = joint_motion(segments[i].joint, segments[i].restraint.frame, now.R[p],
                                now.R[i], now.V[i].w - now.V[p].w);
   }
   for (int i = 0; i < static_cast<int>(segments.size()); ++i) {
@@ -216,7 +216,7 @@ double JointLoads::stored_energy(const Kinematics& now, const MbState& state) co
       continue;
     }
     const JointMotion motion =
-        joint_motion(s.joint, s.restraint.coordinates, now.R[s.parent], now.R[i], Vec3::Zero());
+        joint_motion(s.joint, s.restraint.frame, now.R[s.parent], now.R[i], Vec3::Zero());
     if (model_.bone_of[i] >= 0) {
       energy += bone_energy(s.restraint.bone, motion.angle, state.joints[i].bone);
       continue;

@@ -94,7 +94,7 @@ class Problem {
       if (k > 0 && turns_[k - 1].segment == i) continue;
       const Segment& s = body_.segments[i];
       const Vec3 angle =
-          joint_motion(s.joint, s.restraint.coordinates, Mat3::Identity(), R[i], Vec3::Zero())
+          joint_motion(s.joint, s.restraint.frame, Mat3::Identity(), R[i], Vec3::Zero())
               .angle;
       for (int c = 0; c < 3; ++c) {
         const CoordinateLaw& law = s.restraint.angle[c];

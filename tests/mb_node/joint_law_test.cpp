@@ -21,7 +21,7 @@ TEST(JointMotion, CardanAnglesComeBackFromTheRotation) {
   const Mat3 R_WC = R_WP * rotation(Vec3::UnitY(), angle[0]) * rotation(Vec3::UnitX(), angle[1]) *
                     rotation(Vec3::UnitZ(), angle[2]);
   const JointMotion motion =
-      joint_motion(JointType::Ball, Coordinates::Cardan, R_WP, R_WC, Vec3::Zero());
+      joint_motion(JointType::Ball, {Coordinates::Cardan}, R_WP, R_WC, Vec3::Zero());
   EXPECT_LT((motion.angle - angle).norm(), 1e-13);
 }
 
@@ -30,25 +30,26 @@ TEST(JointMotion, RatesAreTheDerivativesOfTheAngles) {
   const double dt = 1e-6;
   struct Case {
     JointType type;
-    Coordinates coordinates;
+    AngleFrame frame;
     Mat3 R_PC;
     Vec3 w;
   };
   const Mat3 R_WP = rotation(Vec3(1, -2, 0.5).normalized(), 1.3);
   const Mat3 general = rotation(Vec3(0.3, 0.9, -0.2).normalized(), 1.0);
+  const Mat3 about = rotation(Vec3(1, -1, 0).normalized(), 1.5);
   const Mat3 hinge_y = rotation(Vec3::UnitY(), -0.9);
   const Mat3 universal = rotation(Vec3::UnitX(), 0.5) * rotation(Vec3::UnitY(), -0.8);
   const Vec3 universal_w = R_WP * (0.7 * Vec3::UnitX() + 1.9 * universal.col(1));
-  for (const Case& c :
-       {Case{JointType::Ball, Coordinates::Cardan, general, w},
-        Case{JointType::Ball, Coordinates::SwingTwist, general, w},
-        Case{JointType::Ball, Coordinates::SwingTwist, Mat3::Identity(), w},
-        Case{JointType::HingeY, Coordinates::Cardan, hinge_y, R_WP * Vec3(0, 3, 0)},
-        Case{JointType::UniversalXY, Coordinates::Cardan, universal, universal_w}}) {
+  for (const Case& c : {Case{JointType::Ball, {Coordinates::Cardan}, general, w},
+                        Case{JointType::Ball, {Coordinates::SwingTwist}, general, w},
+                        Case{JointType::Ball, {Coordinates::SwingTwist, about}, general, w},
+                        Case{JointType::Ball, {Coordinates::SwingTwist}, Mat3::Identity(), w},
+                        Case{JointType::HingeY, {}, hinge_y, R_WP * Vec3(0, 3, 0)},
+                        Case{JointType::UniversalXY, {}, universal, universal_w}}) {
     const Mat3 R_WC = R_WP * c.R_PC;
     const auto at = [&](double t) {
-      return joint_motion(c.type, c.coordinates, R_WP,
-                          exp_rotation(c.w * t).toRotationMatrix() * R_WC, c.w);
+      return joint_motion(c.type, c.frame, R_WP, exp_rotation(c.w * t).toRotationMatrix() * R_WC,
+                          c.w);
     };
     const Vec3 slope = (at(dt).angle - at(-dt).angle) / (2 * dt);
     EXPECT_LT((at(0).rate - slope).norm(), 1e-6) << static_cast<int>(c.type);
@@ -60,7 +61,7 @@ TEST(JointMotion, GeneralisedMomentsAndTorqueHaveTheSamePower) {
   const Mat3 R_WC = R_WP * rotation(Vec3(0.1, 0.7, 0.2).normalized(), 0.9);
   const Vec3 w(1, 2, -3), M(10, -20, 5);
   for (const Coordinates c : {Coordinates::Cardan, Coordinates::SwingTwist}) {
-    const JointMotion motion = joint_motion(JointType::Ball, c, R_WP, R_WC, w);
+    const JointMotion motion = joint_motion(JointType::Ball, {c}, R_WP, R_WC, w);
     EXPECT_NEAR((motion.dual * M).dot(w), M.dot(motion.rate), 1e-12);
   }
 }
@@ -133,9 +134,8 @@ TEST(Bone, BrokenFoldsPastARightAngleWithoutAJumpOfTheMoment) {
   const Vec3 w(3, 2, -1);
   Vec3 before = Vec3::Zero();
   for (double fold = 80; fold <= 110; fold += 0.5) {
-    const JointMotion motion =
-        joint_motion(JointType::Ball, restraint.coordinates, Mat3::Identity(),
-                     rotation(Vec3::UnitX(), fold * kDegree), w);
+    const JointMotion motion = joint_motion(JointType::Ball, restraint.frame, Mat3::Identity(),
+                                            rotation(Vec3::UnitX(), fold * kDegree), w);
     const Vec3 torque =
         motion.dual *
         bone_moment(restraint.bone, motion.angle, motion.rate, false, history).total();
@@ -144,6 +144,59 @@ TEST(Bone, BrokenFoldsPastARightAngleWithoutAJumpOfTheMoment) {
       EXPECT_LT((torque - before).norm(), 10) << fold;
     }
     before = torque;
+  }
+}
+
+/// Moment on a resting left or right upper arm turned from hanging by `angle` about `axis`.
+Vec3 shoulder_moment(const Segment& arm, const Vec3& axis, double angle, const Vec3& w) {
+  const JointMotion motion = joint_motion(JointType::Ball, arm.restraint.frame, Mat3::Identity(),
+                                          rotation(axis, angle), w);
+  const JointMotion hanging = joint_motion(JointType::Ball, arm.restraint.frame, Mat3::Identity(),
+                                           Mat3::Identity(), Vec3::Zero());
+  Vec3 moments;
+  for (int k = 0; k < 3; ++k) {
+    CoordinateHistory history;
+    CoordinateInput input;
+    input.initial = hanging.angle[k];
+    moments[k] =
+        restraint_moment(arm.restraint.angle[k], input, motion.angle[k], motion.rate[k], history)
+            .total();
+  }
+  return motion.dual * moments;
+}
+
+TEST(Shoulder, SwingsOverheadWithoutAJumpOfTheMoment) {
+  // Counted from a hanging arm, swing and twist end where the arm points straight up.
+  const BodyDescription body = load_subject("male_50");
+  const Segment& arm = body.segments[body.find_segment("upper_arm_l")];
+  const Vec3 w(3, 2, -1);
+  for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(1, -1, 0).normalized()}) {
+    Vec3 before = shoulder_moment(arm, axis, 150 * kDegree, w);
+    for (double angle = 150.5; angle <= 195; angle += 0.5) {
+      const Vec3 now = shoulder_moment(arm, axis, angle * kDegree, w);
+      EXPECT_LT((now - before).norm(), 6) << axis.transpose() << ": " << angle;
+      before = now;
+    }
+  }
+}
+
+TEST(Shoulder, PushesBackPastTheEndsOfItsReachOnEitherSide) {
+  // N m against the motion, stops only: the spring about the hanging arm gives 3 N m/rad.
+  const BodyDescription body = load_subject("male_50");
+  struct Case {
+    Vec3 axis;
+    double free, held;  // degrees
+  };
+  for (const int side : {1, -1}) {
+    const Segment& arm = body.segments[body.find_segment(side > 0 ? "upper_arm_l" : "upper_arm_r")];
+    for (const Case& c : {Case{{0, 1, 0}, 44, 75}, Case{{0, -1, 0}, 155, 200},
+                          Case{{1.0 * side, 0, 0}, 145, 215}, Case{{-1.0 * side, 0, 0}, 18, 45}}) {
+      const auto against = [&](double angle) {
+        return -shoulder_moment(arm, c.axis, angle * kDegree, Vec3::Zero()).dot(c.axis);
+      };
+      EXPECT_LT(against(c.free), 12) << side << ": " << c.axis.transpose();
+      EXPECT_GT(against(c.held), 25) << side << ": " << c.axis.transpose();
+    }
   }
 }
 

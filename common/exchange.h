@@ -121,6 +121,7 @@ struct HeadSample {
   Twist V_WH;
   Vec3 acceleration = Vec3::Zero();          ///< m/s2, of the COG
   Vec3 angular_acceleration = Vec3::Zero();  ///< rad/s2
+  Wrench neck;  ///< of the neck on the head, about the occipital condyles; zero without a neck
 };
 
 struct TissueSample {

@@ -316,6 +316,8 @@ msg::head_sample to_message(const HeadSample& sample) {
   put(m.angular_velocity, sample.V_WH.w);
   put(m.acceleration, sample.acceleration);
   put(m.angular_acceleration, sample.angular_acceleration);
+  put(m.neck_force, sample.neck.f);
+  put(m.neck_moment, sample.neck.tau);
   return m;
 }
 
@@ -324,7 +326,8 @@ HeadSample from_message(const msg::head_sample& m) {
           {get_rotation(m.quaternion), get(m.position)},
           {get(m.velocity), get(m.angular_velocity)},
           get(m.acceleration),
-          get(m.angular_acceleration)};
+          get(m.angular_acceleration),
+          {get(m.neck_force), get(m.neck_moment)}};
 }
 
 msg::tissue_strain to_message(const TissueSample& sample) {

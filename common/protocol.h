@@ -24,9 +24,9 @@
 
 namespace crosswalk {
 
-/// Raised on any change of a message's meaning, even when its type hash stays. Version 1 had no
-/// seal (common/seal.h); its logs are still read.
-inline constexpr int kProtocolVersion = 2;
+/// Raised on any change of a message's meaning, even when its type hash stays. Logs of other
+/// versions are not read.
+inline constexpr int kProtocolVersion = 3;
 inline constexpr int kMaxInterfaceBodies = 8;  ///< array size in the lockstep messages
 inline constexpr int kMaxAttachedBodies = 4;   ///< bodies with a mobility
 /// Encoded size of any message: one Ethernet frame of 1500 B less IP, UDP and LCM headers and seal.

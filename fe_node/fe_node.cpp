@@ -50,6 +50,7 @@ FeNode::FeNode(FeConfig config, int threads, std::filesystem::path folder)
   compare_with_multibody_head();
   tissue_ = TissueMetrics(model, regions_of(node_.built, kBrainParts));
   scratch_.emplace(model, threads_);
+  cut_neck(node_.built.part_sets[head].second);
   double added = 0;
   for (double m : model.added_mass) added += m;
   log_info(
@@ -83,6 +84,17 @@ void FeNode::compare_with_multibody_head() const {
     log_info("{}", text);
   else
     log_warning("{}; check head_neck.joint, forward_axis, up_axis and units", text);
+}
+
+/// The load between head and neck is that of the elements which hold on to the head's nodes.
+void FeNode::cut_neck(const std::vector<int>& head_parts) {
+  const SectionCut cut = cut_round(node_.built.model, head_parts);
+  if (cut.elements.empty()) return;
+  const NeckLandmarks marks = neck_landmarks(config_.body);
+  const Vec3 p_DC =
+      node_.joint + config_.head_neck.q_ND.conjugate() * Vec3(marks.condyles - marks.base);
+  condyles_ = head_.frame().inverse() * p_DC;
+  neck_.emplace(node_.built.model, cut, *scratch_);
 }
 
 std::vector<InterfaceBody> FeNode::interface_bodies() const {
@@ -194,8 +206,9 @@ FeReply FeNode::advance(const FeGrant& grant, RecordSink& sink) {
 void FeNode::publish(const WindowId& id, RecordSink& sink) {
   if (!id.ends_window()) return;
   const std::int64_t end_ns = id.end_ns();
-  const HeadSample head =
+  HeadSample head =
       head_.sample(run_.state, end_ns, run_.head_twist, 1e-9 * static_cast<double>(id.window_ns));
+  if (neck_) head.neck = neck_->about(head.X_WH * condyles_, run_.state, *scratch_);
   run_.head_twist = head.V_WH;
   sink.head(head);
   if (!folder_.empty() && end_ns >= next_sound_ns_) {

@@ -9,6 +9,7 @@
 #include "fe_node/last_sound.h"
 #include "fe_node/node_model.h"
 #include "fe_node/output/head_motion.h"
+#include "fe_node/output/section_force.h"
 #include "fe_node/output/tissue_metrics.h"
 
 namespace crosswalk::fe {
@@ -42,6 +43,7 @@ class FeNode : public FeParticipant {
   };
 
   void compare_with_multibody_head() const;
+  void cut_neck(const std::vector<int>& head_parts);
   FeReply run_window(const FeGrant& grant);
   void publish(const WindowId& id, RecordSink& sink);
   void start_motion_log(const Pose& X_WD, const Twist& V_WD);
@@ -51,6 +53,8 @@ class FeNode : public FeParticipant {
   std::filesystem::path folder_;
   NodeModel node_;
   HeadMotion head_;
+  std::optional<SectionForce> neck_;  ///< none for a head alone
+  Vec3 condyles_ = Vec3::Zero();      ///< in the head's frame H
   TissueMetrics tissue_;
   std::optional<Scratch> scratch_;
   ExplosionWatch watch_{kExplosionFloor};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/error.h"
+
 namespace crosswalk::mb {
 namespace {
 
@@ -30,7 +32,8 @@ void Dynamics::refresh() {
 void Dynamics::substep(MbState& state, double dt, std::span<const ExternalLoad> external) {
   const bool is_held =
       model_.config.posture.support == Support::Harness && state.first_contact_time < 0;
-  world_.set_gravity(is_held ? Vec3::Zero() : model_.config.multibody.gravity);
+  last_gravity_ = is_held ? Vec3::Zero() : model_.config.multibody.gravity;
+  world_.set_gravity(last_gravity_);
   for (auto* loads : {&loads_.joint, &loads_.contact, &loads_.interface}) {
     std::fill(loads->begin(), loads->end(), Wrench{});
   }
@@ -75,6 +78,20 @@ void Dynamics::substep(MbState& state, double dt, std::span<const ExternalLoad> 
   if (state.first_contact_time < 0 && contacts().car_total.norm() >= kContactThreshold) {
     state.first_contact_time = state.time;
   }
+}
+
+Wrench Dynamics::joint_load(int i) const {
+  CW_ASSERT(last_dt_ > 0 && model_.reference_offset[i].isZero(0));
+  const Segment& segment = model_.config.body.segments[i];
+  const auto spin = [&](const Kinematics& at) -> Vec3 {
+    return at.R[i] * world_.inertia(i) * at.R[i].transpose() * at.V[i].w;
+  };
+  Wrench load;
+  load.f = world_.mass(i) * ((now_.V[i].v - before_.V[i].v) / last_dt_ - last_gravity_) -
+           loads_.contact[i].f - loads_.interface[i].f;
+  load.tau =
+      (spin(now_) - spin(before_)) / last_dt_ - loads_.contact[i].tau - loads_.interface[i].tau;
+  return load.shifted(now_.R[i] * (segment.joint_centre - segment.com));
 }
 
 double Dynamics::gravity_energy() const {

@@ -33,6 +33,9 @@ class Dynamics {
 
   const Kinematics& kinematics() const { return now_; }
   const ContactReport& contacts() const { return contacts_.report(); }
+  /// What the parent of a segment without children exerts on it through their joint, mean of the
+  /// last substep, about the joint, W: what Newton's law leaves of contacts, gravity and inertia.
+  Wrench joint_load(int segment) const;
   double kinetic_energy() const { return world_.kinetic_energy(); }
   double gravity_energy() const;
   /// Stored in restraints.
@@ -51,6 +54,7 @@ class Dynamics {
   JointLoads joints_;
   ContactLoads contacts_;
   double last_dt_ = 0;
+  Vec3 last_gravity_ = Vec3::Zero();
 };
 
 }  // namespace crosswalk::mb

@@ -32,8 +32,8 @@ void JointLoads::apply(const Kinematics& now, MbState& state, std::vector<Wrench
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const int p = segments[i].parent;
     if (p < 0) continue;
-    motions_[i] = joint_motion(segments[i].joint, segments[i].restraint.frame, now.R[p],
-                               now.R[i], now.V[i].w - now.V[p].w);
+    motions_[i] = joint_motion(segments[i].joint, segments[i].restraint.frame, now.R[p], now.R[i],
+                               now.V[i].w - now.V[p].w);
   }
   for (int i = 0; i < static_cast<int>(segments.size()); ++i) {
     if (segments[i].parent < 0) continue;

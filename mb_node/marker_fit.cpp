@@ -94,8 +94,7 @@ class Problem {
       if (k > 0 && turns_[k - 1].segment == i) continue;
       const Segment& s = body_.segments[i];
       const Vec3 angle =
-          joint_motion(s.joint, s.restraint.frame, Mat3::Identity(), R[i], Vec3::Zero())
-              .angle;
+          joint_motion(s.joint, s.restraint.frame, Mat3::Identity(), R[i], Vec3::Zero()).angle;
       for (int c = 0; c < 3; ++c) {
         const CoordinateLaw& law = s.restraint.angle[c];
         r.push_back(std::max({0.0, angle[c] - law.max, law.min - angle[c]}) / kBeyond);

@@ -173,6 +173,7 @@ void MbNode::run_substeps(const MbGrant& grant, Records& records) {
   head.V_WH = dynamics_->kinematics().V[model_->head];
   head.acceleration = (head.V_WH.v - head_before.v) / grant.id.length_s();
   head.angular_acceleration = (head.V_WH.w - head_before.w) / grant.id.length_s();
+  head.neck = dynamics_->joint_load(model_->head);
   records.heads.push_back(head);
 }
 

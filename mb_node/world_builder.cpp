@@ -47,8 +47,8 @@ Vec3 first_axis(JointType type) {
 JointMotion start_motion(const MbModel& model, int i) {
   const Segment& s = model.config.body.segments[i];
   if (s.parent < 0) return {};
-  return joint_motion(s.joint, s.restraint.frame, model.X_WB0[s.parent].R(),
-                      model.X_WB0[i].R(), Vec3::Zero());
+  return joint_motion(s.joint, s.restraint.frame, model.X_WB0[s.parent].R(), model.X_WB0[i].R(),
+                      Vec3::Zero());
 }
 
 void set_restraints(MbModel& model) {

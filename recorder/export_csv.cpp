@@ -16,7 +16,7 @@ namespace crosswalk::recording {
 namespace {
 
 constexpr std::array kUnits = {"mm", "mps", "mps2", "radps", "radps2", "N",
-                               "J",  "kg",  "m",    "s",     "Pa"};
+                               "Nm", "J",   "kg",   "m",     "s",      "Pa"};
 
 std::string column_name(const Channel& channel) {
   return channel.unit == "1" ? channel.name : channel.name + "_" + channel.unit;

@@ -189,6 +189,11 @@ void Extraction::add_head() {
             alpha);
   add("head_angular_acceleration_resultant", "radps2", "resultant of the components above",
       {alpha.t, alpha.magnitude()});
+  if (!head.has_neck()) return;
+  each_axis("neck_force", "N", "neck on head, SAE J211 head axes, CFC 1000",
+            head.neck_force_filtered());
+  each_axis("neck_moment", "Nm", "neck on head about the condyles, SAE J211 head axes, CFC 600",
+            head.neck_moment_filtered());
 }
 
 Series Extraction::pair_force(std::size_t pair) const {

@@ -63,6 +63,8 @@ HeadMotion::HeadMotion(const std::map<std::int64_t, HeadSample>& samples, double
     position_.push_back(mix(a.X_WH.p, b.X_WH.p));
     velocity_.push_back(mix(a.V_WH.v, b.V_WH.v));
     angular_velocity_.push_back(mix(a.V_WH.w, b.V_WH.w));
+    neck_force_.push_back(mix(a.neck.f, b.neck.f));
+    neck_moment_.push_back(mix(a.neck.tau, b.neck.tau));
     attitude_.push_back(a.X_WH.q.slerp(share, b.X_WH.q));
   }
 }
@@ -137,6 +139,20 @@ VectorSeries HeadMotion::angular_acceleration() const {
   return {w.t, derivative(w.t, w.x), derivative(w.t, w.y), derivative(w.t, w.z)};
 }
 
+bool HeadMotion::has_neck() const {
+  const auto is_loaded = [](const Vec3& v) { return !v.isZero(0); };
+  return std::any_of(neck_force_.begin(), neck_force_.end(), is_loaded) ||
+         std::any_of(neck_moment_.begin(), neck_moment_.end(), is_loaded);
+}
+
+VectorSeries HeadMotion::neck_force_filtered() const {
+  return filtered(in_head_axes(neck_force_), 1000);
+}
+
+VectorSeries HeadMotion::neck_moment_filtered() const {
+  return filtered(in_head_axes(neck_moment_), 600);
+}
+
 HeadSignals head_signals(const std::vector<Channel>& channels) {
   const auto vector = [&channels](const std::string& stem) -> std::optional<VectorSeries> {
     const Channel* parts[3] = {nullptr, nullptr, nullptr};
@@ -154,6 +170,11 @@ HeadSignals head_signals(const std::vector<Channel>& channels) {
   signals.acceleration = vector("head_acceleration");
   signals.angular_velocity = vector("head_angular_velocity");
   signals.angular_acceleration = vector("head_angular_acceleration");
+  const std::optional<VectorSeries> force = vector("neck_force"), moment = vector("neck_moment");
+  if (force && moment) {
+    signals.neck = NeckLoads{force->t, force->x, force->z, moment->y};
+    signals.neck_parameters.e_m = 0;  // the moment is that about the condyles
+  }
   return signals;
 }
 

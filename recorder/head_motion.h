@@ -32,6 +32,9 @@ class HeadMotion {
   VectorSeries world_acceleration_filtered() const;  ///< frame W, CFC 1000
   VectorSeries angular_velocity_filtered() const;    ///< J211 head axes, CFC 60
   VectorSeries angular_acceleration() const;         ///< derivative of the former
+  bool has_neck() const;                             ///< some sample holds a load of the neck
+  VectorSeries neck_force_filtered() const;          ///< N, of the neck on the head, J211, CFC 1000
+  VectorSeries neck_moment_filtered() const;         ///< N m, about the condyles, J211, CFC 600
 
  private:
   std::vector<Vec3> acceleration_W() const;
@@ -40,7 +43,7 @@ class HeadMotion {
 
   std::vector<double> t_;
   double dt_ = 0;
-  std::vector<Vec3> position_, velocity_, angular_velocity_;
+  std::vector<Vec3> position_, velocity_, angular_velocity_, neck_force_, neck_moment_;
   std::vector<Quat> attitude_;
   bool is_resampled_ = false;
 };

@@ -9,7 +9,6 @@ namespace crosswalk::recording {
 namespace {
 
 constexpr std::size_t kHashBytes = 8;
-constexpr int kUnsealedProtocol = 1;  // the last one
 
 std::int32_t int32_at(std::span<const std::byte> data, std::size_t offset) {
   std::uint32_t value = 0;
@@ -30,8 +29,7 @@ std::optional<msg::header> peek_header(std::span<const std::byte> data) {
       0) {
     return std::nullopt;
   }
-  const bool is_sound = h.protocol == kUnsealedProtocol ||
-                        (h.protocol == kProtocolVersion && unsealed(h.run_id, data).has_value());
+  const bool is_sound = h.protocol == kProtocolVersion && unsealed(h.run_id, data).has_value();
   const bool is_ours = is_sound && h.sender >= 1 && h.sender <= static_cast<int>(Role::Tool) &&
                        h.kind >= 1 && h.kind <= static_cast<int>(kind_rules().size());
   return is_ours ? std::optional<msg::header>(h) : std::nullopt;

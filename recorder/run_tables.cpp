@@ -108,6 +108,19 @@ void add_combined(ReportTable& table, const CombinedScores& c) {
   table.rows.push_back({"HARM", fmt::format("{:.2f}", c.HARM), "–", ""});
 }
 
+void add_neck(ReportTable& table, const NeckResult& n) {
+  table.rows.push_back(
+      {"Nij", fmt::format("{:.2f}", n.Nij), "–",
+       fmt::format("tension-flexion {:.2f}, tension-extension {:.2f}, compression-flexion {:.2f}, "
+                   "compression-extension {:.2f}; critical values of the Hybrid III 50th",
+                   n.NTF, n.NTE, n.NCF, n.NCE)});
+  table.rows.push_back(
+      {"Nkm", fmt::format("{:.2f}", n.Nkm), "–",
+       fmt::format("flexion-anterior {:.2f}, extension-anterior {:.2f}, flexion-posterior {:.2f}, "
+                   "extension-posterior {:.2f}",
+                   n.NFA, n.NEA, n.NFP, n.NEP)});
+}
+
 ReportTable energy_table(const Summary& s) {
   ReportTable table{"Energy of the bodies at the end",
                     "What the car put in, where it is, and which law took it (docs/multibody.md).",
@@ -122,17 +135,16 @@ ReportTable energy_table(const Summary& s) {
 }
 
 ReportTable injury_table(const Summary& s) {
-  ReportTable table{"Head injury metrics",
+  ReportTable table{"Head and neck injury metrics",
                     "Head COG in SAE J211 axes; linear acceleration CFC 1000, angular velocity CFC "
-                    "60, angular acceleration its derivative.",
+                    "60, angular acceleration its derivative; loads of the neck on the head at the "
+                    "condyles, force CFC 1000, moment CFC 600.",
                     {"metric", "value", "unit", "when, how"},
                     {}};
   if (s.card.linear) add_linear(table, *s.card.linear);
   if (s.card.rotation) add_rotation(table, *s.card.rotation);
   if (s.card.combined) add_combined(table, *s.card.combined);
-  table.rows.push_back({"Nij, Nkm", "–", "–",
-                        "need the loads of the upper neck, which a run does not record; crosswalk "
-                        "injury takes them from a file"});
+  if (s.card.neck) add_neck(table, *s.card.neck);
   return table;
 }
 

@@ -44,20 +44,8 @@ HistoryWriter::HistoryWriter(const Model& model, HistoryRequests requests,
   std::erase_if(requests_.elements, [&](const auto& e) { return !places.contains(e); });
   for (const auto& element : requests_.elements)
     places_.push_back({places.at(element).first, places.at(element).second});
-  for (const SectionCut& section : requests_.sections) {
-    std::vector<Corner>& corners = corners_.emplace_back();
-    for (const auto& element : section.elements) {
-      const auto found = places.find(element);
-      if (found == places.end()) continue;  // of a rigid part
-      const auto [b, e] = found->second;
-      const ElementBlock& block = *model.blocks[b];
-      for (int c = 0; c < block.corners(); ++c) {
-        const int node = block.node(e / kLanes, c, e % kLanes);
-        if (!std::binary_search(section.nodes.begin(), section.nodes.end(), node)) continue;
-        corners.push_back({node, scratch.add_tap(model, b, e, c)});
-      }
-    }
-  }
+  for (const SectionCut& section : requests_.sections)
+    section_forces_.emplace_back(model, section, scratch);
   if (!requests_.nodes.empty())
     open(nodes_, folder / "nodes.csv",
          "time_s,node,x_m,y_m,z_m,ux_m,uy_m,uz_m,vx_m_s,vy_m_s,vz_m_s");
@@ -75,13 +63,7 @@ Wrench HistoryWriter::section_force(const State& state, const Scratch& scratch, 
   Vec3 centre = Vec3::Zero();
   const std::vector<int>& nodes = requests_.sections[section].nodes;
   for (int n : nodes) centre += state.nodes[n].position() / static_cast<double>(nodes.size());
-  Wrench sum;
-  for (const Corner& corner : corners_[section]) {
-    const Scratch::Tap& tap = scratch.taps[corner.tap.first][corner.tap.second];
-    sum.f += tap.force;
-    sum.tau += (state.nodes[corner.node].position() - centre).cross(tap.force) + tap.moment;
-  }
-  return sum;
+  return section_forces_[section].about(centre, state, scratch);
 }
 
 void HistoryWriter::write(const State& state, const Scratch& scratch) {

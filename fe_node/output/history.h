@@ -14,6 +14,7 @@
 
 #include "fe_node/history_requests.h"
 #include "fe_node/model.h"
+#include "fe_node/output/section_force.h"
 #include "fe_node/state.h"
 
 namespace crosswalk::fe {
@@ -36,17 +37,13 @@ class HistoryWriter {
   struct Place {
     int block = 0, element = 0;
   };
-  struct Corner {
-    int node = 0;
-    std::pair<int, int> tap;  ///< see Scratch::add_tap()
-  };
   void write_elements(const State& state);
   void write_contacts(const State& state, const Scratch& scratch);
 
   const Model& model_;
   HistoryRequests requests_;
   std::vector<Place> places_;
-  std::vector<std::vector<Corner>> corners_;  ///< per section
+  std::vector<SectionForce> section_forces_;
   std::ofstream nodes_, elements_, sections_, contacts_;
 };
 

@@ -61,6 +61,12 @@ HeadSignals signals_of(const MmeTest& test, bool is_filtered) {
     signals.angular_acceleration = raw.angular_acceleration;
   }
   signals.notes = raw.notes;
+  if (signals.neck) {
+    signals.neck.reset();
+    signals.notes.push_back(
+        "upper neck loads are not rated: an ISO-MME test does not say how far above the condyles "
+        "its moment was measured");
+  }
   if (!signals.acceleration && !signals.angular_velocity) {
     throw SignalError(SignalFault::Shape, test.name +
                                               ": no head acceleration or angular velocity "

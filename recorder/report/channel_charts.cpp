@@ -18,7 +18,7 @@ struct Shown {
   const char* unit;
   double factor;
 };
-constexpr std::array<Shown, 12> kShown{{{"mps", "m/s", 1},
+constexpr std::array<Shown, 13> kShown{{{"mps", "m/s", 1},
                                         {"m/s", "m/s", 1},
                                         {"mps2", "m/s²", 1},
                                         {"m/s2", "m/s²", 1},
@@ -27,6 +27,7 @@ constexpr std::array<Shown, 12> kShown{{{"mps", "m/s", 1},
                                         {"radps2", "krad/s²", 1e-3},
                                         {"rad/s2", "krad/s²", 1e-3},
                                         {"N", "kN", 1e-3},
+                                        {"Nm", "N m", 1},
                                         {"m", "mm", 1e3},
                                         {"s", "ms", 1e3},
                                         {"1", "–", 1}}};
@@ -113,8 +114,19 @@ const std::vector<GroupSpec>& groups() {
          {{"head_acceleration_x", "x"}, {"head_acceleration_y", "y"}, {"head_acceleration_z", "z"}},
          "g",
          1.0 / kStandardGravity}}},
-      {"Contact forces",
-       {{"head_force",
+      {"Neck loads and contact forces",
+       {{"neck_force",
+         "Force of the neck on the head",
+         "force",
+         "Head-fixed SAE J211 axes, CFC 1000; z positive: the neck is pulled.",
+         {{"neck_force_x", "x"}, {"neck_force_y", "y"}, {"neck_force_z", "z"}}},
+        {"neck_moment",
+         "Moment of the neck on the head",
+         "moment",
+         "About the occipital condyles, head-fixed SAE J211 axes, CFC 600; y positive: the head is "
+         "flexed.",
+         {{"neck_moment_x", "x"}, {"neck_moment_y", "y"}, {"neck_moment_z", "z"}}},
+        {"head_force",
          "Force between head and car",
          "force",
          "Resultant of all head contacts.",

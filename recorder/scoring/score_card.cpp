@@ -199,7 +199,7 @@ ScoreCard score_card(const HeadSignals& signals) {
     card.notes.push_back(
         "linear and angular signals differ in time: no metric of both (GAMBIT, HIP, KLC, HARM)");
   }
-  if (signals.neck) card.neck = neck_injury(*signals.neck, {});
+  if (signals.neck) card.neck = neck_injury(*signals.neck, signals.neck_parameters);
   add_risks(card);
   return card;
 }

@@ -23,6 +23,7 @@ struct HeadSignals {
   std::optional<VectorSeries> angular_velocity;      ///< rad/s
   std::optional<VectorSeries> angular_acceleration;  ///< rad/s2
   std::optional<NeckLoads> neck;
+  NeckParameters neck_parameters;
   std::vector<std::string> notes;  ///< what filtering did besides filtering
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "common/units.h"
 #include "tests/mb_node/mb_fixture.h"
 
 namespace crosswalk::mb {
@@ -163,6 +164,32 @@ TEST(MbNode, TouchesTheCarWhenTheGapIsClosed) {
   EXPECT_TRUE(reply.first_contact);
   EXPECT_NEAR(node.state().first_contact_time, 0.18e-3, 0.03e-3);
   ASSERT_EQ(sink.events.size(), 1u);
+}
+
+TEST(MbNode, TheNeckCarriesTheHeadsInertiaAndWeight) {
+  const MbConfig config = load_config("v2370", RunMode::Multibody);
+  const int i = config.body.find_segment("head");
+  const Segment& head = config.body.segments[i];
+  MbNode node(config);
+  KeptRecords sink;
+  constexpr int kWindows = 6000;  // 60 ms, one step each: the head is pulled along, hit by nothing
+  for (int k = 0; k < kWindows; ++k) node.advance(grant(k, 10'000), sink);
+  Vec3 spin = Vec3::Zero();
+  double largest = 0;
+  for (int k = 1000; k < kWindows; ++k) {
+    const HeadSample& s = sink.heads[k];
+    const Mat3 R = s.X_WH.R();
+    const Vec3 L = R * head.inertia * R.transpose() * s.V_WH.w;
+    if (k > 1000) {
+      const Vec3 force = head.mass * (s.acceleration + Vec3(0, 0, kStandardGravity));
+      EXPECT_LT((s.neck.f - force).norm(), 1e-6 * (1 + force.norm())) << k;
+      const Vec3 about_com = s.neck.shifted(R * (head.com - head.joint_centre)).tau;
+      EXPECT_LT((about_com - (L - spin) / 1e-5).norm(), 1e-6 * (1 + about_com.norm())) << k;
+    }
+    spin = L;
+    largest = std::max(largest, s.neck.f.norm());
+  }
+  EXPECT_GT(largest, 100);
 }
 
 TEST(MbNode, RecordsHeadForcesAndPosesAtTheirRates) {

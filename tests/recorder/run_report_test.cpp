@@ -114,10 +114,11 @@ TEST(RunReport, InjuryMetricsComeWithWindowsAndParameters) {
   EXPECT_EQ(tables[0].rows[0].size(), tables[0].columns.size());
   EXPECT_EQ(tables[1].rows[0].size(), tables[1].columns.size());
   EXPECT_THAT(tables[0].rows[0].back(), HasSubstr("ISO fault"));
-  EXPECT_EQ(tables[2].title, "Head injury metrics");
+  EXPECT_EQ(tables[2].title, "Head and neck injury metrics");
   EXPECT_EQ(tables[2].rows[0][0], "HIC15");
   EXPECT_THAT(tables[2].rows[0][3], HasSubstr(" to "));
   for (const auto& row : tables[2].rows) EXPECT_EQ(row.size(), 4U) << row[0];
+  EXPECT_EQ(tables[2].rows.back()[0], "Nkm");
 }
 
 TEST(RunReport, SpeedIsHeldAgainstABandOfItsRatio) {

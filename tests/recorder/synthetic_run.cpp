@@ -99,6 +99,8 @@ void Writer::head(std::int64_t t_ns) {
   sample.X_WH.q = Quat(Eigen::AngleAxisd(Run::kSpin * t, Vec3::UnitZ()));
   sample.V_WH.v = Vec3(0, head_speed(t), -0.5);
   sample.V_WH.w = Vec3(0, 0, Run::kSpin);
+  sample.neck.f = sample.X_WH.q * Vec3(40, 0, -Run::kNeckPull);  // the neck pulls downwards
+  sample.neck.tau = sample.X_WH.q * Vec3(0, -Run::kNeckFlexion, 0);
   batch_.sample[batch_.n++] = to_message(sample);
   if (batch_.n < 6) return;
   send_record(batch_, run_.has_fe ? Role::Fe : Role::Mb);

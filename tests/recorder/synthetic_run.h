@@ -24,6 +24,8 @@ struct SyntheticRun {
   static constexpr double kFirstContact = 0.002;  // s
   static constexpr double kHeadContact = 0.012;   // s
   static constexpr double kSpin = 20.0;           // rad/s about z (up)
+  static constexpr double kNeckPull = 400.0;      // N, tension
+  static constexpr double kNeckFlexion = 15.0;    // N m about the condyles
   std::string run_id = "synthetic";
   bool has_fe = true;
 

@@ -151,6 +151,7 @@ class Fe : public FeParticipant {
                {Quat::Identity(), {now_.x, 0, 0}},
                {},
                {},
+               {},
                {}});
     reply_.substeps = n;
     reply_.kinetic = 0.5 * now_.mass * now_.v * now_.v;

@@ -186,14 +186,16 @@ std::optional<FrontOverlap> overlap_with_front(const PosedEllipsoid& e, const Ve
     best_facet = i;
   }
   // Normals around the vertices between them, and around free ends.
-  const auto try_vertex = [&](const Vec2& vertex, const Vec2& from, const Vec2& to, int facet) {
-    const std::optional<Vec2> found = vertex_minimum(ellipse, vertex, from, to);
-    if (!found) return;
-    const double g = vertex_overlap(ellipse, vertex, *found);
+  const auto try_normal = [&](const Vec2& vertex, const Vec2& normal, int facet) {
+    const double g = vertex_overlap(ellipse, vertex, normal);
     if (g >= best) return;
     best = g;
-    n = *found;
+    n = normal;
     best_facet = facet;
+  };
+  const auto try_vertex = [&](const Vec2& vertex, const Vec2& from, const Vec2& to, int facet) {
+    const std::optional<Vec2> found = vertex_minimum(ellipse, vertex, from, to);
+    if (found) try_normal(vertex, *found, facet);
   };
   for (std::size_t k = 0; k + 1 < chain.facets.size(); ++k) {
     const FrontFacet& below = front.facets[chain.facets[k]];
@@ -203,13 +205,12 @@ std::optional<FrontOverlap> overlap_with_front(const PosedEllipsoid& e, const Ve
   const FrontFacet& first = front.facets[chain.facets.front()];
   const FrontFacet& last = front.facets[chain.facets.back()];
   const Eigen::Rotation2Dd fan(kFreeFan);
+  const Vec2 under = fan.inverse() * first.normal, over = fan * last.normal;
   if (chain.is_open_begin) {
-    const Vec2 under = fan.inverse() * first.normal;
     if (vertex_overlap(ellipse, first.begin, under) <= 0) return std::nullopt;
     try_vertex(first.begin, under, first.normal, chain.facets.front());
   }
   if (chain.is_open_end) {
-    const Vec2 over = fan * last.normal;
     if (vertex_overlap(ellipse, last.end, over) <= 0) return std::nullopt;
     try_vertex(last.end, last.normal, over, chain.facets.back());
   }
@@ -234,6 +235,9 @@ std::optional<FrontOverlap> overlap_with_front(const PosedEllipsoid& e, const Ve
     if (is_first && !chain.is_open_begin) return std::nullopt;
     if (is_last && !chain.is_open_end) return std::nullopt;
   }
+  // The limits of the fans count as well: behind a free end the depth falls to nothing steadily.
+  if (chain.is_open_begin) try_normal(first.begin, under, chain.facets.front());
+  if (chain.is_open_end) try_normal(last.end, over, chain.facets.back());
   const Vec3 normal = R * Vec3(0, n.x(), n.y());
   const FrontOverlap found{make_overlap(e, normal, best), best_facet};
   const double lateral = (R.transpose() * (found.overlap.point - X_WF.p)).x();

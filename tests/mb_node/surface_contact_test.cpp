@@ -161,6 +161,24 @@ TEST_F(SedanFront, DepthIsContinuousAlongTheFront) {
   }
 }
 
+TEST_F(SedanFront, DepthIsContinuousBehindTheUpperEdgeOfTheGlass) {
+  // A way past the edge and down behind it: the depth changes by no more than the way.
+  const Eigen::Vector2d edge = front.facets.back().end;
+  double before = -1, deepest = 0;
+  for (double s = 0; s < 1; s += 1e-3) {
+    const Vec3 p(0, edge.x() + 0.06 - 0.36 * s, edge.y() + 0.05 - 0.1 * s);
+    const auto o = touch({p, kRotation, {0.1, 0.08, 0.09}});
+    const double depth = o ? o->overlap.depth : 0;
+    if (before >= 0) {
+      EXPECT_LE(std::abs(depth - before), 0.38e-3) << s;
+    }
+    before = depth;
+    deepest = std::max(deepest, depth);
+  }
+  EXPECT_GT(deepest, 0.02);
+  EXPECT_EQ(before, 0);
+}
+
 TEST_F(SedanFront, IsLeftAtTheSides) {
   const FrontFacet& hood = front.facets[11];
   const Eigen::Vector2d centre = 0.5 * (hood.begin + hood.end);

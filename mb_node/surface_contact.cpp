@@ -17,7 +17,7 @@ constexpr int kNewtonSteps = 30;
 constexpr double kConverged = 1e-12;    // rad
 constexpr double kEndTolerance = 0.01;  // m: how far past a closed end the deepest point may lie
 constexpr double kFreeFan =
-    60 * kDegree;  // normals around a free end: the surface curls away there
+    60 * kDegree;  // normals around a free end: the surface curls away there [E]
 
 double support(const Mat3& A, const Vec3& n) { return std::sqrt(n.dot(A * n)); }
 
@@ -205,7 +205,10 @@ std::optional<FrontOverlap> overlap_with_front(const PosedEllipsoid& e, const Ve
   const FrontFacet& first = front.facets[chain.facets.front()];
   const FrontFacet& last = front.facets[chain.facets.back()];
   const Eigen::Rotation2Dd fan(kFreeFan);
-  const Vec2 under = fan.inverse() * first.normal, over = fan * last.normal;
+  const Vec2 under = fan.inverse() * first.normal;
+  // Behind the last part of the front a roof goes on level [E].
+  const bool is_rear = chain.facets.back() + 1 == static_cast<int>(front.facets.size());
+  const Vec2 over = is_rear && last.normal.x() > 0 ? Vec2::UnitY() : fan * last.normal;
   if (chain.is_open_begin) {
     if (vertex_overlap(ellipse, first.begin, under) <= 0) return std::nullopt;
     try_vertex(first.begin, under, first.normal, chain.facets.front());

@@ -161,22 +161,24 @@ TEST_F(SedanFront, DepthIsContinuousAlongTheFront) {
   }
 }
 
-TEST_F(SedanFront, DepthIsContinuousBehindTheUpperEdgeOfTheGlass) {
-  // A way past the edge and down behind it: the depth changes by no more than the way.
+TEST_F(SedanFront, ARoofGoesOnLevelBehindTheGlass) {
+  // Over the upper edge of the glass and on: the depth changes by no more than the way, and behind
+  // the edge it is that in a plane at the edge's height.
   const Eigen::Vector2d edge = front.facets.back().end;
-  double before = -1, deepest = 0;
+  const Vec3 on_edge(0, edge.x(), edge.y()), way(0, -0.5, 0.02);
+  double before = -1;
   for (double s = 0; s < 1; s += 1e-3) {
-    const Vec3 p(0, edge.x() + 0.06 - 0.36 * s, edge.y() + 0.05 - 0.1 * s);
-    const auto o = touch({p, kRotation, {0.1, 0.08, 0.09}});
-    const double depth = o ? o->overlap.depth : 0;
+    const PosedEllipsoid e(on_edge + Vec3(0, 0.06, 0.03) + s * way, kRotation, {0.1, 0.08, 0.09});
+    const auto o = touch(e);
+    ASSERT_TRUE(o) << s;
     if (before >= 0) {
-      EXPECT_LE(std::abs(depth - before), 0.38e-3) << s;
+      EXPECT_LE(std::abs(o->overlap.depth - before), 1.01e-3 * way.norm()) << s;
     }
-    before = depth;
-    deepest = std::max(deepest, depth);
+    if (s > 0.8) {
+      EXPECT_NEAR(o->overlap.depth, overlap_with_plane(e, Vec3::UnitZ(), on_edge)->depth, 1e-12);
+    }
+    before = o->overlap.depth;
   }
-  EXPECT_GT(deepest, 0.02);
-  EXPECT_EQ(before, 0);
 }
 
 TEST_F(SedanFront, IsLeftAtTheSides) {

@@ -372,15 +372,11 @@ bool Hub::finish(std::int64_t last_window) {
   };
   end_run();
   if (plan_.has_recorder) {
-    const auto begin = Bus::Clock::now();
     const auto is_done = [this] {
       return peer(Role::Recorder).status.state == static_cast<int>(NodeState::Done);
     };
     try {
-      wait_for(
-          {Role::Recorder}, "completing the record",
-          [&] { return is_done() || since(begin) > patience_.finish_s; }, end_run, 0.2);
-      is_complete = is_done();
+      wait_for({Role::Recorder}, "completing the record", is_done, end_run, 0.2);
     } catch (const ProtocolError& error) {
       if (error.code() == ExitCode::Interrupted) throw;
       tell_(EventLevel::Error, error.what());

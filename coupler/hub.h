@@ -39,7 +39,6 @@ struct Patience {
   double stalled_s = 120;  ///< heartbeats, but no progress in an unanswered window
   double first_resend_s = 0.05;
   double longest_resend_s = 2;
-  double finish_s = 60;  ///< for the recorder to complete its record
 };
 
 /// What the coupler knows of one node of the run.

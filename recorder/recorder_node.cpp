@@ -14,13 +14,17 @@ namespace {
 
 /// Channels, summary, table and report from what the log holds; a log too poor for them is said,
 /// not fatal.
-void conclude(const RunDirectory& directory, const Recorder& recorder) {
+void conclude(const RunDirectory& directory, const Recorder& recorder,
+              const RecorderSession::Advanced& advanced) {
   log_info("{} messages, {:.1f} MB in {}", recorder.messages(),
            1e-6 * static_cast<double>(recorder.bytes()), directory.signals().string());
   try {
     const RunRecord record = read_run_record(directory.signals());
+    advanced();
     const Analysis analysis = analyze_record(record);
+    advanced();
     write_results(analysis, directory);
+    advanced();
     write_report(directory.report(), report_input(analysis, record, directory));
     for (const std::string& warning : analysis.summary.warnings) log_warning("{}", warning);
   } catch (const UserError& error) {
@@ -51,21 +55,21 @@ ExitCode run_recorder(RunContext& context) {
   NodeSession::Limits limits;
   limits.join_s = context.wait_s;
   bool is_concluded = false;
-  const auto conclude_once = [&] {
+  const auto conclude_once = [&](const RecorderSession::Advanced& advanced) {
     recorder.flush();
-    if (!is_concluded) conclude(context.directory, recorder);
+    if (!is_concluded) conclude(context.directory, recorder, advanced);
     is_concluded = true;
   };
   RecorderSession session(bus, recorder, identity, limits, conclude_once, checkpoints);
   try {
     const ExitCode code = session.run(interrupt_flag());
-    conclude_once();
+    conclude_once([] {});
     return code;
   } catch (const ProtocolError& error) {
     if (!session.manifest()) throw;
     // The run failed elsewhere: keep and judge what there is.
     log_warning("the record is not complete: {}", error.what());
-    conclude_once();
+    conclude_once([] {});
     return ExitCode::Done;
   }
 }

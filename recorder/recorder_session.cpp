@@ -16,7 +16,7 @@ constexpr auto kAskInterval = 100ms;  // between two requests for the same gap
 }  // namespace
 
 RecorderSession::RecorderSession(Bus& bus, Recorder& recorder, NodeIdentity identity, Limits limits,
-                                 std::function<void()> write_results,
+                                 std::function<void(const Advanced&)> write_results,
                                  std::filesystem::path checkpoints)
     : NodeSession(bus, std::move(identity), limits, std::move(checkpoints)),
       recorder_(recorder),
@@ -91,7 +91,7 @@ void RecorderSession::on_tick(Bus::Clock::time_point now) {
   if (!is_written_ && recorder_.is_complete()) {
     acknowledge(now);
     is_written_ = true;
-    write_results_();
+    write_results_([this] { ++progress_; });
     heard_coupler();
     set_state(NodeState::Done, recorder_.complete_window());
   }

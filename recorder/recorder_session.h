@@ -12,9 +12,12 @@ namespace crosswalk::recording {
 
 class RecorderSession : public NodeSession {
  public:
+  /// To be called at every step of a long work, so that the coupler sees it advance.
+  using Advanced = std::function<void()>;
   /// `write_results` is called once, when the record is complete, before the coupler is told.
   RecorderSession(Bus& bus, Recorder& recorder, NodeIdentity identity, Limits limits,
-                  std::function<void()> write_results, std::filesystem::path checkpoints = {});
+                  std::function<void(const Advanced&)> write_results,
+                  std::filesystem::path checkpoints = {});
 
  private:
   void on_manifest(const msg::run_manifest& manifest) override;
@@ -26,7 +29,7 @@ class RecorderSession : public NodeSession {
   void after_message();
 
   Recorder& recorder_;
-  std::function<void()> write_results_;
+  std::function<void(const Advanced&)> write_results_;
   std::int64_t acknowledged_ = -2;
   std::int64_t acks_ = 0, requests_ = 0;
   std::atomic<std::int64_t> progress_{0};

@@ -196,7 +196,7 @@ TEST_F(RealRun, PrescribedHeadFollowsTheHeadOfAnotherRun) {
   // Time zero of both is the first contact, with which the prescribed run starts.
   const std::vector<double>& time = body.at("time_s");
   const auto zero =
-      static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), 0.0) - time.begin());
+      static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), -1e-9) - time.begin());
   for (const char* channel : {"head_cog_x_mm", "head_cog_y_mm", "head_cog_z_mm"}) {
     // A gap is closed within milliseconds, not at once.
     for (std::size_t i = 0; i < 15; ++i)

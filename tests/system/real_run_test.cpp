@@ -195,8 +195,9 @@ TEST_F(RealRun, PrescribedHeadFollowsTheHeadOfAnotherRun) {
   const Columns body = columns_of(out("a")), head = columns_of(out("b"));
   // Time zero of both is the first contact, with which the prescribed run starts.
   const std::vector<double>& time = body.at("time_s");
+  const double first = head.at("time_s").front() - 1e-9;
   const auto zero =
-      static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), -1e-9) - time.begin());
+      static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), first) - time.begin());
   for (const char* channel : {"head_cog_x_mm", "head_cog_y_mm", "head_cog_z_mm"}) {
     // A gap is closed within milliseconds, not at once.
     for (std::size_t i = 0; i < 15; ++i)

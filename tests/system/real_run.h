@@ -10,7 +10,12 @@
 
 namespace crosswalk::system_test {
 
-constexpr double kLong = 300;  // s; far beyond what anything here takes
+// s; far beyond what anything here takes, also under sanitizers
+#ifdef __SANITIZE_ADDRESS__
+constexpr double kLong = 2400;
+#else
+constexpr double kLong = 300;
+#endif
 
 const std::filesystem::path kPrograms = std::filesystem::path(CW_BINARY_DIR) / "bin";
 const std::filesystem::path kScenarios = std::filesystem::path(CW_SOURCE_DIR) / "scenarios/tests";

@@ -207,16 +207,13 @@ std::string url_with_port(const std::string& url, int port) {
   return std::string(url).replace(begin, length, fmt::format("{}", port));
 }
 
-RunNetwork open_network(const std::string& url, Privacy privacy, const std::string& run_id) {
+RunNetwork open_network(const std::string& url, bool is_isolated, const std::string& run_id) {
   RunNetwork network{url.empty() ? default_lcm_url(run_id) : url};
-  const bool is_demanded = privacy == Privacy::Demanded;
-  if (!network.url.starts_with("udpm://") && !is_demanded) return network;
+  if (!network.url.starts_with("udpm://") && !is_isolated) return network;
   const Multicast here = probe_multicast();
-  const bool is_waived = privacy == Privacy::Waived || !url.empty();
-  const bool is_good_enough = is_waived ? here.defect.empty() : here.stays_here();
-  if (is_demanded || !is_good_enough) {
+  if (is_isolated || !here.defect.empty()) {
     const std::string obstacle = private_network_or_obstacle();
-    if (!obstacle.empty() && (is_demanded || !here.defect.empty()))
+    if (!obstacle.empty())
       throw ProtocolError(
           ExitCode::NoTransport,
           fmt::format(
@@ -226,18 +223,12 @@ RunNetwork open_network(const std::string& url, Privacy privacy, const std::stri
               here.defect.empty()
                   ? ""
                   : fmt::format(" and no UDP multicast on this machine ({})", here.defect)));
-    network.is_private = obstacle.empty();
-    const std::string reason = is_demanded             ? "as asked"
-                               : here.defect.empty() ? "multicast here uses " + here.interface
-                                                     : "no multicast here: " + here.defect;
-    if (network.is_private) {
-      fmt::print("messages in a private network ({}); `crosswalk spy` looks into it\n", reason);
-    } else {
-      fmt::print(
-          "no private network ({}): messages use the multicast of this machine, where other "
-          "accounts of it could send as well\n",
-          obstacle);
-    }
+    network.is_private = true;
+    fmt::print("messages in a private network ({}); `crosswalk spy` looks into it\n",
+               is_isolated ? "as asked" : "no multicast here: " + here.defect);
+  } else if (here.interface != "lo") {
+    fmt::print("messages by multicast of this machine ({}, not beyond it); --isolate hides them\n",
+               here.interface);
   }
   const int asked = port_of(network.url);
   for (int port = asked; port != 0 && port < asked + kPortsTried; ++port) {

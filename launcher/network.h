@@ -1,10 +1,10 @@
-// Where the messages of a run on one machine go: a network that nobody else reaches.
+// Where the messages of a run on one machine go: over its multicast where that works, so that stock
+// tools can listen, else into a private network.
 //
 // LCM needs a route for 224.0.0.0/4; without one it fails, or waits 10 s for a self-test. So we
-// probe with a socket of our own first, and see through which interface multicast goes. Through lo
-// it stays among the processes here; through a real interface, or when the probe fails, or on
-// request, the launcher moves into a network namespace of its own with loopback and that route; the
-// processes it starts inherit it.
+// probe with a socket of our own first. When the probe fails, or on request, the launcher moves
+// into a network namespace of its own with loopback and that route; the processes it starts inherit
+// it. What others send to the port is kept out by the filter of common/datagram_filter.h.
 #pragma once
 
 #include <string>
@@ -29,15 +29,10 @@ struct RunNetwork {
   std::string url;
   bool is_private = false;  ///< this process and its children are alone in it
 };
-enum class Privacy {
-  Default,   ///< a private network unless multicast stays among the processes here
-  Demanded,  ///< a private network in any case
-  Waived     ///< the host's multicast where it works: somebody else shall listen
-};
-/// A URL on which traffic works. `url` empty: the one of the run id, on the next free port; one
-/// that is given waives privacy. Says on stdout what was chosen and is not obvious; throws
-/// ProtocolError{NoTransport} with the cure when nothing works.
-RunNetwork open_network(const std::string& url, Privacy privacy, const std::string& run_id);
+/// A URL on which traffic works. `url` empty: the one of the run id, on the next free port.
+/// `is_isolated`: a private network in any case. Says on stdout what was chosen and is not obvious;
+/// throws ProtocolError{NoTransport} with the cure when nothing works.
+RunNetwork open_network(const std::string& url, bool is_isolated, const std::string& run_id);
 
 /// "udpm://239.255.76.67:PORT?..." with another port.
 std::string url_with_port(const std::string& url, int port);

@@ -116,11 +116,8 @@ ProcessSpec player_process(const fs::path& log, double speed, const std::string&
 ExitCode replay_command(const ReplayRequest& request) {
   const fs::path log = log_of(request.source);
   const std::string run_id = run_id_of(request.source);
-  const Privacy privacy = request.is_isolated   ? Privacy::Demanded
-                          : request.to == "bus" ? Privacy::Waived
-                                                : Privacy::Default;
-  const RunNetwork network =
-      open_network(request.url, privacy, run_id.empty() ? log.filename().string() : run_id);
+  const RunNetwork network = open_network(request.url, request.is_isolated,
+                                          run_id.empty() ? log.filename().string() : run_id);
   const fs::path out = request.out.empty() ? request.source / "replay" : request.out;
   if (request.to == "fe") return replay_to_fe(request, run_id, network.url, out);
   std::optional<Process> listener;

@@ -183,8 +183,7 @@ ExitCode start_run(const PreparedRun& run, const RunRequest& request) {
   if (request.is_watched) live_page.emplace(run.directory);
   require_way_to_hosts(run, request);
   const RunNetwork network =
-      open_network(planned_url(run, request),
-                   request.is_isolated ? Privacy::Demanded : Privacy::Default, run.run_id);
+      open_network(planned_url(run, request), request.is_isolated, run.run_id);
   const Tunnel tunnel(run, request);
   fmt::print("{} ({}{}), {:g} ms from first contact, in {}\n", scenario.name,
              name_of(scenario.mode),

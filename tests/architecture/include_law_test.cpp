@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/architecture/source_tree.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk::architecture {
 namespace {
@@ -23,7 +24,7 @@ std::vector<Include> includes_of(const std::string& folder) {
   static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
   std::vector<Include> includes;
   for (const fs::path& file : files_under(folder, {".h", ".cpp"})) {
-    const auto lines = lines_of(fs::path(CW_SOURCE_DIR) / file);
+    const auto lines = lines_of(source_folder() / file);
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (std::smatch match; std::regex_search(lines[i], match, pattern))
         includes.push_back({file, static_cast<int>(i) + 1, match[1].str()});

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/architecture/source_tree.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk::architecture {
 namespace {
@@ -49,7 +50,7 @@ const std::map<std::string, std::string> kPackageOf = {
 
 std::set<std::string> listed_packages() {
   std::set<std::string> packages;
-  for (std::string line : lines_of(fs::path(CW_SOURCE_DIR) / "cmake/debian-packages.txt")) {
+  for (std::string line : lines_of(source_folder() / "cmake/debian-packages.txt")) {
     line = line.substr(0, line.find('#'));
     while (!line.empty() && line.back() == ' ') line.pop_back();
     if (!line.empty()) packages.insert(line);
@@ -61,7 +62,7 @@ TEST(DebianPackages, CoverEverythingCMakeLooksFor) {
   static const std::regex find(
       R"(find_(?:package|library|program|path|file)\s*\(\s*([A-Za-z0-9_]+))");
   const std::set<std::string> listed = listed_packages();
-  const fs::path root = CW_SOURCE_DIR;
+  const fs::path root = source_folder();
   std::vector<fs::path> files = {"CMakeLists.txt"};
   for (const std::string folder : {"cmake", "lcmtypes", "common", "mb_node", "fe_node", "coupler",
                                    "recorder", "launcher", "tests", "bench"})

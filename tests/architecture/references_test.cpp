@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/architecture/source_tree.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk::architecture {
 namespace {
@@ -27,7 +28,7 @@ std::set<std::string> keys_in(const std::string& comment) {
 }
 
 TEST(References, EveryCitedKeyStandsInTheList) {
-  const fs::path root = CW_SOURCE_DIR;
+  const fs::path root = source_folder();
   const std::string list = text_of(root / "docs/references.md");
   std::map<std::string, std::string> missing;  // key -> where it is cited
   for (const std::string folder : {"common", "mb_node", "fe_node", "coupler", "recorder",

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/source_folder.h"
+
 namespace crosswalk::architecture {
 
 inline std::string text_of(const std::filesystem::path& file) {
@@ -25,7 +27,7 @@ inline std::vector<std::string> lines_of(const std::filesystem::path& file) {
 /// Files under a folder of the project with one of the extensions, relative to its root.
 inline std::vector<std::filesystem::path> files_under(const std::string& folder,
                                                       const std::vector<std::string>& extensions) {
-  const std::filesystem::path root = CW_SOURCE_DIR;
+  const std::filesystem::path root = source_folder();
   std::vector<std::filesystem::path> files;
   if (!std::filesystem::exists(root / folder)) return files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/common/subject_fixture.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk {
 namespace {
@@ -18,7 +19,7 @@ struct Row {
 };
 
 std::vector<Row> read_rows(const std::string& file) {
-  std::ifstream stream(std::string(CW_SOURCE_DIR "/tests/common/") + file);
+  std::ifstream stream(source_folder() / "tests/common" / file);
   std::vector<Row> rows;
   for (std::string line; std::getline(stream, line);) {
     if (line.empty() || line[0] == '#') continue;

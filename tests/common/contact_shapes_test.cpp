@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/common/subject_fixture.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk {
 namespace {
@@ -36,7 +37,7 @@ TEST(ContactShapes, GiveBothSidesTheSameSurfaces) {
   ConfigDocument document = ConfigDocument::from_text(
       "[subject]\nbase = \"subjects/v2370.toml\"\n[vehicle]\nbase = "
       "\"vehicles/generic_sedan_buck.toml\"\n",
-      "test.toml", CW_SOURCE_DIR "/scenarios");
+      "test.toml", source_folder() / "scenarios");
   const std::vector<BodyShapes> shapes =
       read_contact_shapes(document.root(), {"buck", "scapula_l", "upper_arm_r"});
   document.finish();

@@ -11,6 +11,7 @@
 
 #include "common/units.h"
 #include "tests/common/subject_fixture.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk::mb {
 namespace {
@@ -110,7 +111,7 @@ struct Golden {
 };
 
 std::vector<Golden> read_golden() {
-  std::ifstream file(CW_SOURCE_DIR "/tests/mb_node/data/buck_component_golden_response.csv");
+  std::ifstream file(source_folder() / "tests/mb_node/data/buck_component_golden_response.csv");
   std::vector<Golden> rows;
   for (std::string line; std::getline(file, line);) {
     if (line[0] == '#' || line.rfind("component,", 0) == 0) continue;

@@ -6,13 +6,14 @@
 
 #include "common/exchange.h"
 #include "mb_node/mb_config.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk::mb {
 
 /// `more` is TOML laid over the scenario, for example "[vehicle]\nspeed_km_h = 0.0\n".
 inline MbConfig load_config(const std::string& test, RunMode mode, const std::string& more = {}) {
   ConfigDocument document = ConfigDocument::from_text(
-      "base = \"" + test + ".toml\"\n" + more, "test.toml", CW_SOURCE_DIR "/scenarios/tests");
+      "base = \"" + test + ".toml\"\n" + more, "test.toml", source_folder() / "scenarios/tests");
   Scenario scenario = read_scenario(document);
   scenario.mode = mode;
   if (mode == RunMode::Multibody) scenario.interfaces.clear();

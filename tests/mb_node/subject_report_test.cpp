@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/common/subject_fixture.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk::mb {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 PublishedScaling published(const std::string& subject) {
-  return read_published_scaling(CW_SOURCE_DIR "/scenarios/reference/scaled_models.csv", subject);
+  return read_published_scaling(source_folder() / "scenarios/reference/scaled_models.csv", subject);
 }
 
 TEST(SubjectReport, HeightsAndLengthsAreMetAtLeastAsWellAsByThePublishedModel) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mb_node/study.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk::mb {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 constexpr const char* kFast = "[multibody]\nstepper = \"quick\"\nsubstep_us = 20.0\n";
 
 SoloSummary impact(const std::string& test, const std::string& more = {}, double duration = 0.2) {
-  const std::filesystem::path scenarios = CW_SOURCE_DIR "/scenarios";
+  const std::filesystem::path scenarios = source_folder() / "scenarios";
   return run_case({test, "", 0, "base = \"" + test + ".toml\"\n" + more + kFast, duration},
                   scenarios);
 }

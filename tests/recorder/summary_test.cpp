@@ -12,6 +12,7 @@
 #include "common/error.h"
 #include "recorder/export_csv.h"
 #include "tests/recorder/synthetic_run.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk::recording {
 namespace {
@@ -200,7 +201,7 @@ TEST(ReferenceData, ARunShorterThanItsCurvesIsRatedWithAWarning) {
 }
 
 TEST(ReferenceData, TheThreePublishedTestsAreKeptAsPrinted) {
-  const fs::path root = fs::path(CW_SOURCE_DIR) / "scenarios" / "reference";
+  const fs::path root = source_folder() / "scenarios" / "reference";
   double sum = 0;
   for (const char* test : {"v2370", "v2371", "v2374"}) {
     const ReferenceData data = read_reference(root / test);

@@ -9,13 +9,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/source_folder.h"
+
 namespace crosswalk::recording {
 
 inline std::filesystem::path vector_folder(const std::string& group) {
   const char* other = std::getenv("CROSSWALK_RATING_VECTORS");
   const std::filesystem::path root =
-      other != nullptr ? std::filesystem::path(other)
-                       : std::filesystem::path(CW_SOURCE_DIR) / "tests/recorder/vectors";
+      other != nullptr ? std::filesystem::path(other) : source_folder() / "tests/recorder/vectors";
   return root / group;
 }
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/source_folder.h"
 #include "tests/system/launched.h"
 
 namespace crosswalk::system_test {
@@ -34,8 +35,8 @@ class DeckCommand : public testing::Test {
   }
   /// Runs crosswalk under a limit of memory; a program that is killed has no exit code of its own.
   Outcome call(const std::vector<std::string>& arguments) {
-    std::string line =
-        std::string("ulimit -v ") + kMemoryLimit + "; exec " CW_BINARY_DIR "/bin/crosswalk";
+    std::string line = std::string("ulimit -v ") + kMemoryLimit + "; exec " +
+                       (build_folder() / "bin/crosswalk").string();
     for (const std::string& argument : arguments) line += " '" + argument + "'";
     Launched launched("/bin/sh", {"-c", line}, folder_.path() / "output.txt");
     const auto status = launched.wait(kPatience);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/source_folder.h"
 #include "tests/system/launched.h"
 
 namespace crosswalk::system_test {
@@ -17,8 +18,8 @@ constexpr double kLong = 2400;
 constexpr double kLong = 300;
 #endif
 
-const std::filesystem::path kPrograms = std::filesystem::path(CW_BINARY_DIR) / "bin";
-const std::filesystem::path kScenarios = std::filesystem::path(CW_SOURCE_DIR) / "scenarios/tests";
+const std::filesystem::path kPrograms = build_folder() / "bin";
+const std::filesystem::path kScenarios = source_folder() / "scenarios/tests";
 
 /// Everything below the comment lines, which name the scenario.
 std::string channels_of(const std::filesystem::path& run);

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include "tests/source_folder.h"
 #include "tests/system/launched.h"
 
 namespace crosswalk::system_test {
@@ -20,8 +21,8 @@ using testing::HasSubstr;
 
 constexpr double kLong = 60;  // s; far beyond what anything here takes
 
-const fs::path kPrograms = fs::path(CW_BINARY_DIR) / "toy_bin";
-const fs::path kScenario = fs::path(CW_SOURCE_DIR) / "tests/system/toy.toml";
+const fs::path kPrograms = build_folder() / "toy_bin";
+const fs::path kScenario = source_folder() / "tests/system/toy.toml";
 
 class ToyRun : public testing::Test {
  protected:

@@ -6,6 +6,7 @@
 #include "fe_node/deck/deck_report.h"
 #include "fe_node/deck/deck_writer.h"
 #include "fe_node/fe_config.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk::fe {
 namespace {
@@ -14,8 +15,7 @@ class GeneratedDeck : public testing::TestWithParam<const char*> {};
 
 TEST_P(GeneratedDeck, ChecksWithoutAWarning) {
   const std::string subject = GetParam();
-  ConfigDocument document(std::filesystem::path(CW_SOURCE_DIR) / "scenarios/tests" /
-                          (subject + ".toml"));
+  ConfigDocument document(source_folder() / "scenarios/tests" / (subject + ".toml"));
   ignore_tables_of_others(document, "fe_node");
   Scenario scenario = read_scenario(document);
   scenario.fidelity = crosswalk::Fidelity::Coarse;

@@ -8,12 +8,13 @@
 #include "common/neck_landmarks.h"
 #include "fe_node/fe_node.h"
 #include "tests/common/subject_fixture.h"
+#include "tests/source_folder.h"
 
 namespace crosswalk::fe {
 
 /// `more`: TOML laid over the scenario.
 inline FeConfig node_config(const std::string& more) {
-  ConfigDocument document(std::filesystem::path(CW_SOURCE_DIR "/scenarios/tests/v2370.toml"));
+  ConfigDocument document(source_folder() / "scenarios/tests/v2370.toml");
   document.override_with("[output]\nfield_interval_ms = 0\n" + more, "test");
   const Scenario scenario = read_scenario(document);
   FeConfig config = read_fe_config(document, scenario);

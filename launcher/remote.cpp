@@ -21,7 +21,7 @@ constexpr int kLastSignal = 64;
 constexpr int kSshFailed = 255;
 
 /// ssh with its options, up to the host.
-std::vector<std::string> ssh_words(int tunnel_port) {
+std::vector<std::string> ssh_words() {
   std::vector<std::string> words;
   if (const char* other = std::getenv("CROSSWALK_SSH"); other != nullptr && *other != '\0') {
     std::istringstream in(other);
@@ -30,15 +30,12 @@ std::vector<std::string> ssh_words(int tunnel_port) {
     // Never a question for a password; a host that is gone is noticed within 15 s.
     words = {"ssh", "-T", "-o", "BatchMode=yes", "-o", "ServerAliveInterval=5"};
   }
-  if (tunnel_port > 0)
-    words.insert(words.end(), {"-o", "ExitOnForwardFailure=yes", "-R",
-                               fmt::format("{0}:127.0.0.1:{0}", tunnel_port)});
   return words;
 }
 
 std::string ssh_text(const std::string& host, const std::string& command) {
   std::string text;
-  for (const std::string& word : ssh_words(0)) text += shell_word(word) + " ";
+  for (const std::string& word : ssh_words()) text += shell_word(word) + " ";
   return text + shell_word(host) + " " + shell_word(command);
 }
 
@@ -99,6 +96,22 @@ ProcessSpec in_remote_folder(ProcessSpec spec, const RunDirectory& directory) {
   return spec;
 }
 
+ProcessSpec forwarded_port(const std::string& host, int port) {
+  const std::vector<std::string> words = ssh_words();
+  ProcessSpec spec{.name = "tunnel to " + host,
+                   .program = words.front(),
+                   .arguments = {},
+                   .log = {},
+                   .is_output_piped = true,
+                   .host = host};
+  spec.arguments.assign(words.begin() + 1, words.end());
+  for (const std::string& word :
+       {std::string("-o"), std::string("ExitOnForwardFailure=yes"), std::string("-R"),
+        fmt::format("{0}:127.0.0.1:{0}", port), host, std::string("echo ready; exec cat")})
+    spec.arguments.push_back(word);
+  return spec;
+}
+
 ProcessSpec Remote::over_ssh(const ProcessSpec& planned, const RunDirectory& directory) const {
   const ProcessSpec there = in_remote_folder(planned, directory);
   const std::string script = fmt::format(
@@ -108,7 +121,7 @@ ProcessSpec Remote::over_ssh(const ProcessSpec& planned, const RunDirectory& dir
       "wait $node; code=$?; kill $watcher 2>/dev/null; exit $code",
       shell_word(remote_folder(run_id).string()), there.command_text());
   ProcessSpec spec = planned;
-  const std::vector<std::string> words = ssh_words(tunnel_port);
+  const std::vector<std::string> words = ssh_words();
   spec.program = words.front();
   spec.arguments.assign(words.begin() + 1, words.end());
   spec.arguments.push_back(planned.host);

@@ -29,10 +29,13 @@ std::filesystem::path remote_folder(const std::string& run_id);
 /// The process with the paths of the run folder relative to it.
 ProcessSpec in_remote_folder(ProcessSpec spec, const RunDirectory& directory);
 
+/// The connection that leads `port` of 127.0.0.1 there to the same port here while it lives; it
+/// says "ready" on its output once it does.
+ProcessSpec forwarded_port(const std::string& host, int port);
+
 /// How to reach the other machines.
 struct Remote {
   std::string run_id;
-  int tunnel_port = 0;  ///< > 0: this port there leads to the same port here
 
   /// The process wrapped for its host.
   ProcessSpec over_ssh(const ProcessSpec& planned, const RunDirectory& directory) const;

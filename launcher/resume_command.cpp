@@ -87,9 +87,6 @@ void note_in_provenance(const RunDirectory& directory, const InterruptedRun& run
 
 InterruptedRun inspect_interrupted(const RunDirectory& directory, const Scenario& scenario) {
   const fs::path& root = directory.root();
-  if (is_finished(directory))
-    refuse(root, "resume", "a run that ended early", "a finished one",
-           "its results are in that folder");
   if (is_running(directory))
     refuse(root, "resume", "a run that ended early", "one that is running", "");
   const std::string digest = fmt::format("{:016x}", scenario.digest);
@@ -116,6 +113,12 @@ ExitCode resume_command(RunRequest request, const std::vector<std::string>& comm
   place_nodes(run.scenario, request.on);
   run.run_id = run_id_of(directory);
   gather_from_hosts(run);
+  // A process may have died after its work was done.
+  if (is_finished(directory)) {
+    fmt::print("{} is finished, nothing is left to do\n", run.run_id);
+    tell_results(directory);
+    return ExitCode::Done;
+  }
   const InterruptedRun interrupted = inspect_interrupted(directory, run.scenario);
   request.is_resumed = interrupted.window.has_value();
   if (request.is_printed_only) return print_commands(run, request);

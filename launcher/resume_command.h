@@ -18,12 +18,11 @@ struct InterruptedRun {
   std::optional<std::int64_t> window;  ///< of the checkpoint; none yet: start from the beginning
 };
 
-/// Looks whether the run can be resumed. Throws UserError for a folder without a run, a finished or
-/// a running run and an edited scenario, ProtocolError{CheckpointMismatch} for a checkpoint that is
-/// damaged or not ours.
+/// Looks whether the run can be resumed. Throws UserError for a running run and an edited scenario,
+/// ProtocolError{CheckpointMismatch} for a checkpoint that is damaged or not ours.
 InterruptedRun inspect_interrupted(const RunDirectory& directory, const Scenario& scenario);
 
-/// request.scenario is the run folder.
+/// request.scenario is the run folder. Of a finished run it only tells the results.
 ExitCode resume_command(RunRequest request, const std::vector<std::string>& command);
 
 }  // namespace crosswalk

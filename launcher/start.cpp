@@ -20,6 +20,7 @@
 #include "launcher/process.h"
 #include "launcher/remote.h"
 #include "launcher/supervisor.h"
+#include "launcher/tunnel.h"
 
 namespace crosswalk {
 
@@ -56,25 +57,6 @@ void require_way_to_hosts(const PreparedRun& run, const RunRequest& request) {
                     "interface that leads to {}, or use --tunnel (docs/distributed.md)",
                     defect, fmt::join(hosts, ", ")));
 }
-
-/// With --tunnel, a broker on this machine that the other ones reach through ssh.
-class Tunnel {
- public:
-  Tunnel(const PreparedRun& run, const RunRequest& request) {
-    if (!request.is_tunnelled) return;
-    port_ = default_port(run.run_id);
-    broker_.emplace(
-        ProcessSpec{.name = "broker",
-                    .program = sibling_program("coupler"),
-                    .arguments = {"broker", "--listen", fmt::format("127.0.0.1:{}", port_)},
-                    .log = run.directory.log("broker")});
-  }
-  int port() const { return port_; }
-
- private:
-  int port_ = 0;
-  std::optional<Process> broker_;
-};
 
 /// Tells `crosswalk spy` where to look; there only while the run lives.
 class RunningMark {
@@ -177,6 +159,11 @@ void gather_from_hosts(const PreparedRun& run) {
   }
 }
 
+void tell_results(const RunDirectory& directory) {
+  print_file(directory.summary_text());
+  fmt::print("results: {}\n", directory.root().string());
+}
+
 ExitCode start_run(const PreparedRun& run, const RunRequest& request) {
   const Scenario& scenario = run.scenario;
   std::optional<LivePageProcess> live_page;
@@ -184,7 +171,9 @@ ExitCode start_run(const PreparedRun& run, const RunRequest& request) {
   require_way_to_hosts(run, request);
   const RunNetwork network =
       open_network(planned_url(run, request), request.is_isolated, run.run_id);
-  const Tunnel tunnel(run, request);
+  std::optional<Tunnel> tunnel;
+  if (request.is_tunnelled)
+    tunnel.emplace(default_port(run.run_id), hosts_of(scenario), run.directory);
   fmt::print("{} ({}{}), {:g} ms from first contact, in {}\n", scenario.name,
              name_of(scenario.mode),
              scenario.has_fe() ? fmt::format(", {}", name_of(scenario.fidelity)) : "",
@@ -193,7 +182,7 @@ ExitCode start_run(const PreparedRun& run, const RunRequest& request) {
 
   std::vector<ProcessSpec> specs =
       process_specs(scenario, request, run.directory, run.run_id, network.url);
-  const Remote remote{run.run_id, tunnel.port()};
+  const Remote remote{run.run_id};
   for (const std::string& host : hosts_of(scenario))
     remote.send(host, run.directory, request.is_resumed);
   for (ProcessSpec& spec : specs)
@@ -203,8 +192,7 @@ ExitCode start_run(const PreparedRun& run, const RunRequest& request) {
   const Verdict verdict = start_and_watch(specs);
   gather_from_hosts(run);
   if (verdict.code == ExitCode::Done) {
-    print_file(run.directory.summary_text());
-    fmt::print("results: {}\n", run.directory.root().string());
+    tell_results(run.directory);
   } else {
     fmt::print("crosswalk: {}\n", verdict.text);
     tell_what_was_kept(run.directory);

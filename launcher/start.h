@@ -22,6 +22,9 @@ ExitCode print_commands(const PreparedRun& run, const RunRequest& request);
 /// Brings what runs on other machines into the run folder, and tells which of them did not answer.
 void gather_from_hosts(const PreparedRun& run);
 
+/// The table of a finished run and where its files are.
+void tell_results(const RunDirectory& directory);
+
 /// Starts every process, here and on other machines, watches them to the end, prints the table or
 /// what went wrong.
 ExitCode start_run(const PreparedRun& run, const RunRequest& request);

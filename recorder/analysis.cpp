@@ -48,8 +48,8 @@ void write_results(const Analysis& a, const RunDirectory& directory) {
                          : "start of the simulation"},
        {"frame",
         "W: x subject's front, y buck travel (impact direction), z up; head axes SAE J211"}});
-  write_text(directory.summary(), to_json(a.summary).dump(1) + "\n");
   write_text(directory.summary_text(), to_text(a.summary));
+  write_text(directory.summary(), to_json(a.summary).dump(1) + "\n");
 }
 
 }  // namespace crosswalk::recording

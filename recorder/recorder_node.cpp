@@ -23,9 +23,10 @@ void conclude(const RunDirectory& directory, const Recorder& recorder,
     advanced();
     const Analysis analysis = analyze_record(record);
     advanced();
-    write_results(analysis, directory);
-    advanced();
+    // The summary comes last: it tells a later `crosswalk resume` that everything is there.
     write_report(directory.report(), report_input(analysis, record, directory));
+    advanced();
+    write_results(analysis, directory);
     for (const std::string& warning : analysis.summary.warnings) log_warning("{}", warning);
   } catch (const UserError& error) {
     log_warning("no results: {}", error.what());

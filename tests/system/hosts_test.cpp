@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include "tests/source_folder.h"
 #include "tests/system/real_run.h"
 
 namespace crosswalk::system_test {
@@ -17,10 +18,10 @@ class Hosts : public RealRun {
  protected:
   /// Runs a command on the first of `count` hosts.
   Launched on_hosts(const std::string& name, int count, const std::string& faults,
-                    const std::vector<std::string>& command) {
-    std::vector<std::string> words = {(fs::path(CW_SOURCE_DIR) / "tests/system/hosts.sh").string(),
-                                      (kPrograms / "faulty_hub").string(), std::to_string(count),
-                                      faults};
+                    const std::vector<std::string>& command, bool has_sshd = false) {
+    std::vector<std::string> words = {(source_folder() / "tests/system/hosts.sh").string()};
+    if (has_sshd) words.push_back("--sshd");
+    words.insert(words.end(), {(kPrograms / "faulty_hub").string(), std::to_string(count), faults});
     words.insert(words.end(), command.begin(), command.end());
     return Launched("/bin/sh", words, folder() / (name + ".txt"));
   }
@@ -81,6 +82,22 @@ TEST_F(Hosts, BrokerReplacesMulticast) {
   if (status && status->code == 77) GTEST_SKIP() << "no network namespaces here";
   ASSERT_TRUE(status && status->is_success()) << launched.output();
   EXPECT_TRUE(channels_of(out("apart")) == channels_of(out("here")));
+}
+
+TEST_F(Hosts, SshAndItsTunnelHaveTheSameChannels) {
+  const std::vector<std::string> options = {"--mode", "multibody", "--until-ms", "5"};
+  complete("here", options);
+  for (const std::string way : {"multicast", "tunnel"}) {
+    std::vector<std::string> command = run_command(way, options);
+    command.insert(command.end(), {"--on", "mb=host2,recorder=host2"});
+    if (way == "tunnel") command.push_back("--tunnel");
+    Launched launched = on_hosts(way, 2, "", command, true);
+    const auto status = launched.wait(kLong);
+    if (status && status->code == 77) GTEST_SKIP() << launched.output();
+    ASSERT_TRUE(status && status->is_success()) << launched.output();
+    EXPECT_TRUE(channels_of(out(way)) == channels_of(out("here"))) << way;
+    EXPECT_EQ(fs::exists(out(way) / "logs/tunnel-host2.log"), way == "tunnel");
+  }
 }
 
 TEST_F(Hosts, NodeKilledElsewhereEndsTheRunEverywhere) {

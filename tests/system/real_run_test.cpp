@@ -14,6 +14,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include "tests/source_folder.h"
+
 namespace crosswalk::system_test {
 namespace {
 
@@ -157,7 +159,7 @@ TEST_F(RealRun, KeyReferenceInTheDocumentsIsCurrent) {
   Launched keys = call("crosswalk", {"keys"}, "keys");
   const auto status = keys.wait(kLong);
   ASSERT_TRUE(status && status->is_success()) << keys.output();
-  EXPECT_TRUE(keys.output() == text_of(fs::path(CW_SOURCE_DIR) / "docs/scenario_keys.md"))
+  EXPECT_TRUE(keys.output() == text_of(source_folder() / "docs/scenario_keys.md"))
       << "bring it up to date: ./crosswalk keys > docs/scenario_keys.md";
 }
 
@@ -203,6 +205,32 @@ TEST_F(RealRun, PrescribedHeadFollowsTheHeadOfAnotherRun) {
     for (std::size_t i = 0; i < 15; ++i)
       EXPECT_NEAR(head.at(channel).at(i), body.at(channel).at(zero + i), 2e-4) << channel;
   }
+}
+
+TEST_F(RealRun, AnyProcessStoppedForThreeSecondsChangesNothing) {
+  const std::vector<std::string> options = {"--until-ms", "2"};
+  complete("undisturbed", options);
+  Launched stopped = run("stopped", options);
+  const fs::path log = out("stopped") / "signals.lcmlog";
+  std::uintmax_t size = 0;
+  for (const char* victim : {"fe_node", "mb_node", "coupler", "recorder"}) {
+    std::error_code none;
+    ASSERT_TRUE(wait_for(kLong,
+                         [&] {
+                           return fs::exists(log) && fs::file_size(log, none) > size &&
+                                  stopped.child(victim) > 0;
+                         }))
+        << victim << '\n'
+        << stopped.output();
+    const pid_t pid = stopped.child(victim);
+    ASSERT_EQ(kill(pid, SIGSTOP), 0);
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    size = fs::file_size(log);
+    ASSERT_EQ(kill(pid, SIGCONT), 0);
+  }
+  const auto status = stopped.wait(kLong);
+  ASSERT_TRUE(status && status->is_success()) << stopped.output();
+  EXPECT_TRUE(channels_of(out("stopped")) == channels_of(out("undisturbed")));
 }
 
 TEST_F(RealRun, KilledFeNodeEndsACoupledRunByName) {

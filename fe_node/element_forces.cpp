@@ -11,6 +11,16 @@ namespace {
 
 constexpr int kMostCorners = 10;
 
+/// The elements' stable step, a tenth of a kernel's work, is found every so many steps. Within four
+/// steps of 0.9 of it nothing moves further than a wave runs through three cells, and a cell that
+/// is pressed in at a tenth of the wave speed loses less than the remaining tenth.
+constexpr int kStepsPerLimit = 4;
+
+bool wants_limit(const State& state) {
+  return state.step % kStepsPerLimit == 0 || state.step == state.awake_from ||
+         state.element_limit.stable_step <= 0;
+}
+
 void keep_taps(std::vector<Scratch::Tap>& taps, const ElementBlock& block, int first, int last,
                const double* forces, const double* moments) {
   for (Scratch::Tap& tap : taps) {
@@ -75,8 +85,8 @@ void add(const BlockSums& part, BlockSums& sum) {
 }  // namespace
 
 void element_forces(const Model& model, State& state, Scratch& scratch) {
-  const StepContext context{state.nodes,   state.spin, state.time,
-                            state.last_dt, true,       scratch.threads};
+  const StepContext context{state.nodes,   state.spin,         state.time,
+                            state.last_dt, wants_limit(state), scratch.threads};
   const int count = static_cast<int>(model.tiles.tiles.size());
   const bool asleep = is_asleep(model, state);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
@@ -114,8 +124,8 @@ StepReport sum_blocks(const Model& model, State& state, Scratch& scratch) {
   for (std::size_t t = 0; t < model.tiles.tiles.size(); ++t)
     add(scratch.tile_sums[t], scratch.block_sums[model.tiles.tiles[t].block]);
 
-  StepReport report;
-  report.stable_step = std::numeric_limits<double>::infinity();
+  StepReport limit;
+  limit.stable_step = std::numeric_limits<double>::infinity();
   Energies& e = state.energies;
   e.internal = e.hourglass_stored = 0;
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
@@ -129,13 +139,10 @@ StepReport sum_blocks(const Model& model, State& state, Scratch& scratch) {
     e.hourglass_stored += sums.hourglass;
     e.hourglass_dissipated += sums.hourglass_dissipated;
     e.viscous += sums.viscous_dissipated;
-    if (sums.stable_step < report.stable_step) {
-      report.stable_step = sums.stable_step;
-      report.critical_block = b;
-      report.critical_element = sums.critical_element;
-    }
+    if (sums.stable_step < limit.stable_step) limit = {sums.stable_step, b, sums.critical_element};
   }
-  return report;
+  if (wants_limit(state)) state.element_limit = limit;
+  return state.element_limit;
 }
 
 }  // namespace crosswalk::fe

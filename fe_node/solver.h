@@ -10,12 +10,6 @@
 
 namespace crosswalk::fe {
 
-struct StepReport {
-  double stable_step = 0;   ///< s, smallest over elements and contacts, unscaled
-  int critical_block = -1;  ///< block and block-local element that set it; -1: a contact
-  int critical_element = -1;
-};
-
 /// Working memory of the solver; holds nothing that a restart needs.
 struct Scratch {
   Scratch(const Model& model, int threads);

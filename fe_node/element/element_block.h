@@ -30,7 +30,7 @@ struct StepContext {
       spin;         ///< angular velocity of nodes at t - dt/2, rad/s; empty without shells
   double time = 0;  ///< s, of the positions
   double dt = 0;    ///< s, from the last positions to these
-  bool wants_stable_step = true;
+  bool wants_stable_step = true;  ///< without it BlockSums::stable_step means nothing
   int threads = 1;  ///< for prepare()
 };
 

@@ -87,7 +87,8 @@ class Hex8Block final : public ElementBlock {
       const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));
       const HexAnswer<Lanes> answer =
           hex8_forces(shapes_.groups[group], nodes, law_, controls_, step.dt,
-                      group_history(history, group), smallest(lanes.step_squared));
+                      group_history(history, group),
+                      step.wants_stable_step ? smallest(lanes.step_squared) : 0.0);
       store_corner_forces(answer, corner_forces.data() + corner_slot(group - first, 0, 0));
       add_to_sums(answer, lane_mask(group), step, group, element_count(), lanes, sums);
     }

@@ -159,7 +159,7 @@ void rest_where_failed(const N& alive, Tensor<N>& F, Tensor<N>& F_rate) {
     }
 }
 
-/// `least_squared`: the smallest stable step found so far, squared; see above.
+/// `least_squared`: the smallest stable step found so far, squared; see above. 0: none is wanted.
 template <class N, class Law>
 HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, const Law& law,
                          const ElementControls& controls, double dt, N* history,
@@ -191,15 +191,18 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
     for (int j = 0; j < 3; ++j) material.P(i, j) -= q * step.F_inverse(j, i);
   answer.viscous_power = q * compression * ref.length * ref.length;  // V / l = l^2
 
-  // Damping with ratio s = (Q1 e l + Q2 c) / c shortens the step by sqrt(1 + s^2) - s.
-  const N ratio =
-      where_less(constant<N>(0), compression, N(viscous_speed / wave_speed), constant<N>(0));
-  const N shorten = square_root(N(1.0 + ratio * ratio)) - ratio;
-  const N shorten_squared = shorten * shorten;
-  answer.stable_step_squared =
-      hex_stable_step_squared(ref, step.F_inverse, step.J, material.bulk_modulus,
-                              material.shear_modulus, N(least_squared / shorten_squared)) *
-      shorten_squared;
+  answer.stable_step_squared = constant<N>(std::numeric_limits<double>::infinity());
+  if (least_squared > 0) {
+    // Damping with ratio s = (Q1 e l + Q2 c) / c shortens the step by sqrt(1 + s^2) - s.
+    const N ratio =
+        where_less(constant<N>(0), compression, N(viscous_speed / wave_speed), constant<N>(0));
+    const N shorten = square_root(N(1.0 + ratio * ratio)) - ratio;
+    const N shorten_squared = shorten * shorten;
+    answer.stable_step_squared =
+        hex_stable_step_squared(ref, step.F_inverse, step.J, material.bulk_modulus,
+                                material.shear_modulus, N(least_squared / shorten_squared)) *
+        shorten_squared;
+  }
 
   // Hourglass control; its reaction on F is folded into the stress (see hex8.h). Component by
   // component, so that the loads of the modes stay in registers.

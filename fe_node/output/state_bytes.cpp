@@ -14,6 +14,7 @@ void visit(Archive& archive, Any& state) {
   archive.value(state.step);
   archive.value(state.last_dt);
   archive.value(state.stable_step);
+  archive.value(state.element_limit);
   archive.value(state.awake_from);
   archive.value(state.energies);
   archive.values(state.nodes);

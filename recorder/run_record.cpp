@@ -240,7 +240,7 @@ void RecordBuilder::Impl::take(const msg::mb_done& m) {
   w = {.t_ns = m.t_ns,
        .seq = m.h.seq,
        .substeps = m.substeps,
-       .work_us = m.work_us,
+       .work_us = w.work_us + m.work_us,  // of all passes of an implicit window
        .contacts = m.n_contacts,
        .energy = reply.energy,
        .bodies = reply.bodies};
@@ -256,7 +256,7 @@ void RecordBuilder::Impl::take(const msg::fe_done& m) {
   w = {.t_ns = m.t_ns,
        .seq = m.h.seq,
        .substeps = m.substeps,
-       .work_us = m.work_us,
+       .work_us = w.work_us + m.work_us,  // of all passes of an implicit window
        .stable_step = m.stable_step,
        .kinetic = m.kinetic,
        .internal = m.internal,

@@ -116,8 +116,7 @@ Timing timing_of(const RunRecord& record) {
   for (const auto& [window, w] : record.mb) t.mb += 1e-6 * w.work_us;
   for (const auto& [window, w] : record.fe) t.fe += 1e-6 * w.work_us;
   for (const auto& [window, a] : record.audit) t.windows += 1e-6 * a.wall_us;
-  if (record.manifest && record.manifest->scheme_name() != "implicit")
-    t.exchange = std::max(0.0, t.windows - t.mb - t.fe);
+  t.exchange = std::max(0.0, t.windows - t.mb - t.fe);
   return t;
 }
 

@@ -51,9 +51,7 @@ struct RegionPeak {
 
 struct Timing {
   double wall = 0, windows = 0, mb = 0, fe = 0;  ///< s; differ from run to run
-  /// s of the windows in which neither solver computed; not told for `implicit`, of whose repeated
-  /// passes only the last reports its time.
-  std::optional<double> exchange;
+  double exchange = 0;  ///< s of the windows in which neither solver computed
 };
 
 struct BandVerdict {

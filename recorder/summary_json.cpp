@@ -161,7 +161,7 @@ ordered_json to_json(const Summary& s) {
                    {"mb_s", s.timing.mb},
                    {"fe_s", s.timing.fe},
                    {"windows_s", s.timing.windows},
-                   {"exchange_s", optional(s.timing.exchange)}};
+                   {"exchange_s", s.timing.exchange}};
   return out;
 }
 

@@ -168,10 +168,10 @@ void quality_rows(Table& t, const Summary& s) {
         s.is_complete ? fmt::format("{} messages", s.messages) : "see the warnings below");
   t.row("wall time", fmt::format("{:.1f} s", s.timing.wall),
         fmt::format("multibody {:.1f} s, finite elements {:.1f} s", s.timing.mb, s.timing.fe));
-  if (s.timing.exchange && s.timing.wall > 0)
-    t.row("coupling overhead", fmt::format("{:.1f} %", 100 * *s.timing.exchange / s.timing.wall),
+  if (s.timing.wall > 0)
+    t.row("coupling overhead", fmt::format("{:.1f} %", 100 * s.timing.exchange / s.timing.wall),
           fmt::format("of the wall time, {:.1f} s in which neither side computed",
-                      *s.timing.exchange));
+                      s.timing.exchange));
   t.gap();
 }
 

@@ -20,9 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-RunRecord synthetic_record(bool has_fe = true) {
+RunRecord synthetic_record(bool has_fe = true, int fe_passes = 1) {
   SyntheticRun run;
   run.has_fe = has_fe;
+  run.fe_passes = fe_passes;
   RecordBuilder builder;
   for (const RawMessage& m : run.messages()) builder.add(m.data, 1);
   return builder.record();
@@ -47,6 +48,11 @@ TEST(Summary, TellsContactQualityAndEvents) {
   ASSERT_EQ(s.tissue.size(), 2U);
   EXPECT_EQ(s.tissue[1].region, "brain stem");
   EXPECT_NEAR(s.tissue[0].mps_95_so_far, 0.19, 0.01);
+}
+
+TEST(Summary, ComputingTimeIsThatOfEveryPassOfAWindow) {
+  EXPECT_NEAR(summary_of(synthetic_record(true, 1)).timing.fe, 3e-3 * SyntheticRun::kWindows, 1e-9);
+  EXPECT_NEAR(summary_of(synthetic_record(true, 3)).timing.fe, 9e-3 * SyntheticRun::kWindows, 1e-9);
 }
 
 TEST(Summary, WarnsWhereALimitIsBroken) {

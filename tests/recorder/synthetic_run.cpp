@@ -160,11 +160,12 @@ void Writer::fe(std::int64_t k, std::int64_t t_ns) {
   m.interface_work = 2 * t;
   m.head_contact_force = t >= Run::kHeadContact - 1e-12 ? 2000 : 0;
   m.n_records = records[Role::Fe];
-  send(m, Role::Fe, k);
+  m.work_us = 3000;
+  for (int pass = 0; pass < run_.fe_passes; ++pass) send(m, Role::Fe, k * run_.fe_passes + pass);
   msg::coupling_audit a{};
   a.window = k;
   a.t_ns = t_ns;
-  a.iterations = 1;
+  a.iterations = run_.fe_passes;
   a.work_mb = -2 * t;
   a.work_fe = 2 * t;
   a.exchanged = 2 * t;

@@ -28,6 +28,7 @@ struct SyntheticRun {
   static constexpr double kNeckFlexion = 15.0;    // N m about the condyles
   std::string run_id = "synthetic";
   bool has_fe = true;
+  int fe_passes = 1;  // of a window, each of 3 ms, as the implicit scheme repeats them
 
   std::vector<RawMessage> messages() const;
 };

@@ -4,6 +4,7 @@
 // Jbar), an element (or point) of volume V works with dev tau on its own F, and with p on its Jbar.
 #pragma once
 
+#include "fe_node/material/cube_root.h"
 #include "fe_node/material/material.h"
 
 namespace crosswalk::fe {
@@ -11,7 +12,7 @@ namespace crosswalk::fe {
 /// (Jbar / J)^(1/3)
 template <class N>
 N dilation_scale(const N& mean_J, const N& J) {
-  return exponential(N(logarithm(N(mean_J / J)) * (1.0 / 3.0)));
+  return inverse_cube_root(N(J / mean_J));
 }
 
 /// The step as the law sees it. `before` is the scale of the last step.

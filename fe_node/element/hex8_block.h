@@ -81,14 +81,14 @@ class Hex8Block final : public ElementBlock {
                          std::span<double> corner_forces, std::span<double> /*corner_moments*/,
                          int first, int last, BlockSums& sums) const override {
     LaneSums lanes;
+    decltype(auto) law = ready_law(law_, step.dt);
     lanes.step_squared = Lanes::Constant(sums.stable_step * sums.stable_step);
     for (int group = first; group < last; ++group) {
       if (group + 1 < group_count()) fetch_ahead(group + 1);
       const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));
-      const HexAnswer<Lanes> answer =
-          hex8_forces(shapes_.groups[group], nodes, law_, controls_, step.dt,
-                      group_history(history, group),
-                      step.wants_stable_step ? smallest(lanes.step_squared) : 0.0);
+      const HexAnswer<Lanes> answer = hex8_forces(
+          shapes_.groups[group], nodes, law, controls_, step.dt, group_history(history, group),
+          step.wants_stable_step ? smallest(lanes.step_squared) : 0.0);
       store_corner_forces(answer, corner_forces.data() + corner_slot(group - first, 0, 0));
       add_to_sums(answer, lane_mask(group), step, group, element_count(), lanes, sums);
     }

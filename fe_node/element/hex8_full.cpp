@@ -6,27 +6,32 @@
 #include "common/error.h"
 #include "fe_node/element/dilation.h"
 #include "fe_node/element/hex8_block.h"
+#include "fe_node/element/hex8_points.h"
 
 namespace crosswalk::fe {
 namespace {
 
-constexpr int kPoints = 8;
+constexpr int kPoints = kHexPoints;
 
 struct PointReference {
-  Lanes gradient[8][3];  ///< grad N_I, 1/m
-  Lanes volume;          ///< m3
-  Lanes metric[6];       ///< sum of grad N_I grad N_I^T
+  Tensor<Lanes> half_local;  ///< dxi/dX / 2, 1/m; see local_derivatives()
+  Lanes volume;              ///< m3
 };
 
 struct FullHexReference {
   PointReference points[kPoints];
   Lanes volume, inverse_volume, length;
-  Lanes metric[6];  ///< of the mean gradients, for the dilation
-  Lanes density;    ///< with added mass; only for the stable step
 };
 
-/// Gradients of the trilinear shape functions at a point, with det dX/dxi.
-double point_gradients(const Vec3 (&x)[8], const Vec3& xi, Vec3 (&gradient)[8]) {
+/// What only the stable step asks for.
+struct StepReference {
+  Lanes metric[kPoints][6];  ///< sum of grad N_I grad N_I^T at each point, 1/m2
+  Lanes mean_metric[6];      ///< of the mean gradients, for the dilation
+  Lanes density;             ///< with added mass, kg/m3
+};
+
+/// Gradients of the trilinear shape functions at a point and dxi/dX, with det dX/dxi.
+double point_gradients(const Vec3 (&x)[8], const Vec3& xi, Vec3 (&gradient)[8], Mat3& local_rate) {
   constexpr double kSign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                   {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   Mat3 jacobian = Mat3::Zero();
@@ -37,8 +42,8 @@ double point_gradients(const Vec3 (&x)[8], const Vec3& xi, Vec3 (&gradient)[8]) 
     local[n] = 0.125 * Vec3(kSign[n][0] * b * c, kSign[n][1] * a * c, kSign[n][2] * a * b);
     jacobian += x[n] * local[n].transpose();
   }
-  const Mat3 back = jacobian.inverse().transpose();
-  for (int n = 0; n < 8; ++n) gradient[n] = back * local[n];
+  local_rate = jacobian.inverse();
+  for (int n = 0; n < 8; ++n) gradient[n] = local_rate.transpose() * local[n];
   return jacobian.determinant();
 }
 
@@ -112,18 +117,19 @@ class FullHexBlock final : public ElementBlock {
   /// 8 J / rho0 (K tr g + 2 mu g_max), which the averaging of the dilation only lowers.
   class Bound {
    public:
-    Bound(const FullHexBlock& block, int group) : ref_(block.groups_[group]) {}
+    Bound(const FullHexBlock& block, int group)
+        : ref_(block.groups_[group]), step_(block.steps_[group]) {}
     void add(int q, const Tensor<Lanes>& F_inverse, const Lanes& J, const Lanes& bulk,
              const Lanes& shear) {
       HexReference<Lanes> point;
-      for (int k = 0; k < 6; ++k) point.metric[k] = ref_.points[q].metric[k];
-      point.density = ref_.density;
+      for (int k = 0; k < 6; ++k) point.metric[k] = step_.metric[q][k];
+      point.density = step_.density;
       // the deviator alone at the point; the volume by the mean gradients, below
       const Lanes shear_part =
           hex_stable_step_squared(point, F_inverse, J, Lanes(shear * (2.0 / 3)), shear);
       sum_ += ref_.points[q].volume / shear_part;
       HexReference<Lanes> mean = point;
-      for (int k = 0; k < 6; ++k) mean.metric[k] = ref_.metric[k];
+      for (int k = 0; k < 6; ++k) mean.metric[k] = step_.mean_metric[k];
       const Lanes volume_part =
           hex_stable_step_squared(mean, F_inverse, J, bulk, Lanes(Lanes::Zero()));
       sum_ += ref_.points[q].volume / volume_part;
@@ -132,6 +138,7 @@ class FullHexBlock final : public ElementBlock {
 
    private:
     const FullHexReference& ref_;
+    const StepReference& step_;
     Lanes sum_ = Lanes::Zero();
   };
 
@@ -140,16 +147,19 @@ class FullHexBlock final : public ElementBlock {
   Law law_;
   ElementControls controls_;
   std::vector<FullHexReference, Eigen::aligned_allocator<FullHexReference>> groups_;
+  std::vector<StepReference, Eigen::aligned_allocator<StepReference>> steps_;
   std::vector<double> added_density_;
 };
 
 template <class Law>
 void FullHexBlock<Law>::set_reference(const Mesh& mesh) {
   groups_.resize(group_count());
+  steps_.resize(group_count());
   added_density_.assign(element_count(), 0.0);
   const double a = 1 / std::sqrt(3.0);
   for (int group = 0; group < group_count(); ++group) {
     FullHexReference& ref = groups_[group];
+    StepReference& step = steps_[group];
     for (int lane = 0; lane < kLanes; ++lane) {
       Vec3 x[8], mean[8];
       for (int c = 0; c < 8; ++c) {
@@ -159,24 +169,24 @@ void FullHexBlock<Law>::set_reference(const Mesh& mesh) {
       double volume = 0;
       for (int q = 0; q < kPoints; ++q) {
         Vec3 b[8];
+        Mat3 local_rate;
         const Vec3 xi(q & 1 ? a : -a, q & 2 ? a : -a, q & 4 ? a : -a);
-        const double v = point_gradients(x, xi, b);
+        const double v = point_gradients(x, xi, b, local_rate);
         CW_ASSERT(v > 0);  // the model builder refuses such elements with their place
         PointReference& point = ref.points[q];
-        for (int c = 0; c < 8; ++c) {
-          mean[c] += v * b[c];
-          for (int i = 0; i < 3; ++i) point.gradient[c][i][lane] = b[c][i];
-        }
+        for (int c = 0; c < 8; ++c) mean[c] += v * b[c];
+        for (int k = 0; k < 9; ++k)
+          point.half_local(k / 3, k % 3)[lane] = 0.5 * local_rate(k / 3, k % 3);
         point.volume[lane] = v;
-        set_metric(b, lane, point.metric);
+        set_metric(b, lane, step.metric[q]);
         volume += v;
       }
       for (Vec3& g : mean) g /= volume;
-      set_metric(mean, lane, ref.metric);
+      set_metric(mean, lane, step.mean_metric);
       ref.volume[lane] = volume;
       ref.inverse_volume[lane] = 1 / volume;
       ref.length[lane] = std::cbrt(volume);
-      ref.density[lane] = law_.density;
+      step.density[lane] = law_.density;
     }
   }
   for (int e = 0; e < element_count(); ++e) {
@@ -184,7 +194,7 @@ void FullHexBlock<Law>::set_reference(const Mesh& mesh) {
     if (lacking > 1) added_density_[e] = law_.density * (lacking * lacking - 1);
   }
   for (int e = 0; e < element_count(); ++e)
-    groups_[e / kLanes].density[e % kLanes] += added_density_[e];
+    steps_[e / kLanes].density[e % kLanes] += added_density_[e];
 }
 
 template <class Law>
@@ -192,17 +202,20 @@ void FullHexBlock<Law>::forces(const StepContext& step, std::span<double> histor
                                std::span<double> corner_forces, std::span<double> /*moments*/,
                                int first, int last, BlockSums& sums) const {
   LaneSums lanes;
+  decltype(auto) law = ready_law(law_, step.dt);
   for (int group = first; group < last; ++group) {
     const FullHexReference& ref = groups_[group];
     const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));
     Lanes* h = at(history, group);
     Tensor<Lanes> F[kPoints], F_rate[kPoints], F_inverse[kPoints];
+    local_derivatives(nodes.x, F);
+    local_derivatives(nodes.v, F_rate);
     Lanes J[kPoints], mean_J = Lanes::Zero(), growth = Lanes::Zero();
     HexAnswer<Lanes> answer;
     answer.J = Lanes::Constant(1e300);
     for (int q = 0; q < kPoints; ++q) {
-      F[q] = field_gradient(nodes.x, ref.points[q].gradient);
-      F_rate[q] = field_gradient(nodes.v, ref.points[q].gradient);
+      F[q] = product(F[q], ref.points[q].half_local);
+      F_rate[q] = product(F_rate[q], ref.points[q].half_local);
       if constexpr (requires { Law::kAlive; }) rest_where_failed(h[kPoints], F[q], F_rate[q]);
       J[q] = determinant(F[q]);
       F_inverse[q] = inverse(F[q], J[q]);
@@ -221,7 +234,7 @@ void FullHexBlock<Law>::forces(const StepContext& step, std::span<double> histor
       const Lanes scale = dilation_scale(mean_J, J[q]);
       const SolidStep<Lanes> bar = dilated_step(F[q], F_rate[q], J[q], scale, h[q], step.dt);
       if (step.dt > 0) h[q] = scale;
-      const SolidAnswer<Lanes> material = law_.update(bar, point_history(h, q));
+      const SolidAnswer<Lanes> material = law.update(bar, point_history(h, q));
       tau[q] = kirchhoff_stress(material.P, bar.F);
       const Lanes third = trace(tau[q]) * (1.0 / 3.0);
       add_pressure(tau[q], Lanes(-third));
@@ -249,12 +262,14 @@ void FullHexBlock<Law>::forces(const StepContext& step, std::span<double> histor
       add_pressure(tau[q], Lanes((mean_p - q_mean / mean_J) * J[q]));
       const Tensor<Lanes> P = pulled_back(tau[q], F_inverse[q]);
       const Lanes factor = point.volume * alive;
-      for (int c = 0; c < 8; ++c)
-        for (int i = 0; i < 3; ++i)
-          answer.force[c][i] -=
-              factor * (P(i, 0) * point.gradient[c][0] + P(i, 1) * point.gradient[c][1] +
-                        P(i, 2) * point.gradient[c][2]);
+      Tensor<Lanes>& conjugate = F[q];  // to the local derivatives; F has done its work
+      for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+          conjugate(i, k) =
+              factor * (P(i, 0) * point.half_local(k, 0) + P(i, 1) * point.half_local(k, 1) +
+                        P(i, 2) * point.half_local(k, 2));
     }
+    subtract_loads(F, answer.force);
     answer.alive = alive;
     answer.hourglass_stored = answer.hourglass_power = Lanes::Zero();
     answer.viscous_power = q_mean * compression / ref.length * ref.volume;
@@ -282,9 +297,10 @@ ElementSample FullHexBlock<Law>::sample(const StepContext& step, std::span<const
   out.volume = element_volume(element);
   out.is_alive = copy[kPoints][lane] > 0;
   Tensor<Lanes> F[kPoints];
+  local_derivatives(nodes.x, F);
   Lanes J[kPoints], mean_J = Lanes::Zero();
   for (int q = 0; q < kPoints; ++q) {
-    F[q] = field_gradient(nodes.x, ref.points[q].gradient);
+    F[q] = product(F[q], ref.points[q].half_local);
     J[q] = determinant(F[q]);
     mean_J += ref.points[q].volume * J[q] * ref.inverse_volume;
   }

@@ -4,14 +4,13 @@
 // the undeformed body, and its rate, and take back the first Piola-Kirchhoff stress P (force now
 // per area then, P = J sigma F^-T). A law is a small value type of constants:
 //
-//   struct SomeLaw {
-//     double density;                                      // kg/m3
-//     int history_size() const;                            // numbers per element
-//     double shear_modulus() const;                        // instantaneous, Pa; scales hourglass
-//     control double bulk_modulus() const;                         // Pa template <class N> void
-//     initialise(N* history) const;  // the stress-free state template <class N> SolidAnswer<N>
-//     update(const SolidStep<N>& step, N* history) const;
-//   };
+//   double density;                  kg/m3
+//   int history_size() const;        numbers per element
+//   double shear_modulus() const;    instantaneous, Pa; scales hourglass control
+//   double bulk_modulus() const;     Pa
+//   void initialise(N* history) const;                 the stress-free state
+//   SolidAnswer<N> update(const SolidStep<N>& step, N* history) const;
+//   Law for_step(double dt) const;   optional, see ready_law()
 //
 // N is Lanes or double. update() must be objective, must return zero stress for F = R, and with dt
 // = 0 it returns the stress of the present state and leaves the history alone (that is how outputs
@@ -68,6 +67,15 @@ Symmetric<N> green_lagrange_increment(const SolidStep<N>& step) {
                    M(1, j) * R(1, i) + M(2, j) * R(2, i));
   };
   return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)};
+}
+
+/// The law made ready for steps of `dt` where it has something to prepare, else itself.
+template <class Law>
+decltype(auto) ready_law(const Law& law, double dt) {
+  if constexpr (requires { law.for_step(dt); })
+    return law.for_step(dt);
+  else
+    return (law);
 }
 
 /// Rate of deformation, the symmetric part of L.

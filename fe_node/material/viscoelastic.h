@@ -19,6 +19,8 @@ struct Viscoelastic {
   struct Term {
     double shear_modulus = 0;  ///< Pa
     double decay = 0;          ///< 1/s
+    double step = -1;          ///< s, that `keep` is for; < 0: none
+    double keep = 0;           ///< exp(-decay step)
   };
 
   double density = 0;            ///< kg/m3
@@ -30,6 +32,9 @@ struct Viscoelastic {
   /// One term: G(t) = long + (short - long) exp(-decay t).
   static Viscoelastic from_single_term(double density, double bulk_modulus, double shear_short,
                                        double shear_long, double decay);
+
+  /// The same law with its decays over a step of `dt` worked out beforehand, for many updates.
+  Viscoelastic for_step(double dt) const;
 
   int history_size() const { return 1 + 6 * term_count; }
   double shear_modulus() const {
@@ -94,7 +99,8 @@ struct Viscoelastic {
   static void relax(const Term& term, const Symmetric<N>& T, double dt, N* y, Symmetric<N>& Y,
                     Symmetric<N>& Y_middle) {
     // On lanes although one number would do: a library call here costs all lanes their registers.
-    const N keep = exponential(constant<N>(-term.decay * dt));
+    const N keep =
+        term.step == dt ? constant<N>(term.keep) : exponential(constant<N>(-term.decay * dt));
     const N gain = -term.shear_modulus * (1.0 - keep);
     const N* const t[6] = {&T.xx, &T.yy, &T.zz, &T.xy, &T.yz, &T.zx};
     N* const sum[6] = {&Y.xx, &Y.yy, &Y.zz, &Y.xy, &Y.yz, &Y.zx};

@@ -40,7 +40,6 @@ constexpr Row kRows[] = {
     {"INITIAL_", {Effect::Physics, "an initial state that is not available"}},
     {"LOAD_", {Effect::Physics, "a load of a kind that is not available"}},
     {"BOUNDARY_", {Effect::Physics, "a boundary condition of a kind that is not available"}},
-    {"INCLUDE_TRANSFORM", {Effect::Physics, "a file included with new numbers, units or place"}},
     {"INCLUDE_", {Effect::Physics, "a file included in a way that is not available"}},
     {"PARAMETER_", {Effect::Physics, "parameters of a kind that is not available"}},
     {"DEFINE_", {Effect::Physics, "a definition that others may refer to"}},

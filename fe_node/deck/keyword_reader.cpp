@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "fe_node/deck/expression.h"
+#include "fe_node/deck/include_transform.h"
 #include "fe_node/deck/keyword_effects.h"
 #include "fe_node/deck/keyword_table.h"
 #include "fe_node/deck/number.h"
@@ -121,6 +122,7 @@ class DeckReader {
   }
 
   void finish() {
+    add_waiting();
     if (keyword_count_ == 0 && problems_.errors.empty())
       problems_.errors.add(Place{deck_.files.names.front(), 0, 0}, "file", "a keyword deck",
                            "no keyword");
@@ -178,6 +180,7 @@ class DeckReader {
     if (keyword == "TITLE") return io_.has_card() ? io_.line("TITLE", deck_.title) : void();
     if (keyword == "COMMENT") return io_.skip_rest();
     if (keyword == "INCLUDE") return read_includes();
+    if (keyword == "INCLUDE_TRANSFORM") return read_transformed_include();
     if (keyword.starts_with("INCLUDE_PATH")) return read_include_paths();
     if (keyword == "CONTROL_UNITS") return read_control_units(io_, deck_);
     if (read_parameter_keyword(keyword, io_, parameters_, problems_, deck_)) return;
@@ -210,8 +213,7 @@ class DeckReader {
       read_unsupported_material(block, name);
       unread.reason += fmt::format(" (material {})", deck_.materials.back().id.value);
     }
-    if (keyword.starts_with("INCLUDE_TRANSFORM"))
-      note_missing(std::string(trimmed(io_.next_line())));
+    if (keyword.starts_with("INCLUDE_")) note_missing(std::string(trimmed(io_.next_line())));
     while (io_.has_card()) {
       std::string card;
       io_.raw_line(card);
@@ -277,6 +279,37 @@ class DeckReader {
     format_ = outer_format;
   }
 
+  /// The file is read into a deck of its own, which waits until all of this file's
+  /// *DEFINE_TRANSFORMATIONs are known.
+  void read_transformed_include() {
+    if (!io_.has_content()) return error("*INCLUDE_TRANSFORM", "a file name", "no card");
+    const std::string name = read_file_name();
+    const Source source = io_.source();
+    IncludeTransform card;
+    card.source = source;
+    read_include_transform(io_, card);
+    warn_of_rest("INCLUDE_TRANSFORM");
+    if (options_.includes == ReadOptions::Includes::Ignore) return;
+    Deck outer = std::exchange(deck_, Deck{});
+    std::swap(outer.files, deck_.files);
+    std::vector<TransformedInclude> outer_waiting = std::exchange(waiting_, {});
+    const std::size_t directives = lines_.directives().size();
+    include(name, source);
+    add_waiting();
+    // Units said in a file that is converted are not those of the deck.
+    if (card.changes_units()) lines_.directives().resize(directives);
+    std::swap(outer.files, deck_.files);
+    std::swap(outer, deck_);
+    waiting_ = std::move(outer_waiting);
+    waiting_.push_back({std::move(card), std::move(outer)});
+  }
+
+  void add_waiting() {
+    for (TransformedInclude& include : waiting_)
+      add_transformed(deck_, std::move(include), problems_);
+    waiting_.clear();
+  }
+
   void note_missing(const std::string& name) {
     if (options_.includes == ReadOptions::Includes::Ignore || name.empty()) return;
     std::error_code error;
@@ -309,6 +342,7 @@ class DeckReader {
   CardFormat format_ = CardFormat::Standard;
   fs::path root_folder_;
   std::vector<fs::path> include_paths_;
+  std::vector<TransformedInclude> waiting_;
   long keyword_count_ = 0;
 };
 

@@ -110,13 +110,6 @@ TEST_F(IncludeTest, TheLongFormatOfAFileEndsWithIt) {
   EXPECT_EQ(read.deck.sets[1].ids, std::vector<DeckId>{DeckId(6)});
 }
 
-TEST_F(IncludeTest, TransformedIncludesChangeThePhysics) {
-  const ReadDeck read = read_deck(file("top.k", "*INCLUDE_TRANSFORM\nshoes.k\n   8000000\n\n\n"));
-  ASSERT_EQ(read.deck.unread.size(), 1U);
-  EXPECT_EQ(read.deck.unread[0].effect, Effect::Physics);
-  EXPECT_EQ(read.deck.missing_includes[0].name, "shoes.k");
-}
-
 TEST_F(IncludeTest, AMissingDeckIsOneError) {
   const ReadDeck read = read_deck(folder_ / "none.k");
   ASSERT_EQ(read.problems.errors.total(), 1);

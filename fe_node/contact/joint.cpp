@@ -8,20 +8,16 @@
 namespace crosswalk::fe {
 namespace {
 
-double mobility(const JointBody& body, const Vec3& point) {
-  if (body.mass <= 0) return 0;
-  return 1 / body.mass + (point - body.centre).squaredNorm() / body.least_inertia;
-}
-
 class Joint final : public ContactInterface {
  public:
   Joint(JointSpec spec, const JointBody& a, const JointBody& b, std::span<const Vec3> points,
         double step)
-      : ContactInterface(spec.name), spec_(std::move(spec)) {
+      : ContactInterface(spec.name), spec_(std::move(spec)), a_(a), b_(b) {
     CW_ASSERT(step > 0 && !spec_.points.empty());
     double omega2 = 0;
     for (const auto& [first, second] : spec_.points) {
-      const double sum = mobility(a, points[first]) + mobility(b, points[second]);
+      const double sum =
+          a.mobility(points[first] - a.centre) + b.mobility(points[second] - b.centre);
       CW_ASSERT(sum > 0);  // the model builder refuses joints between driven bodies
       const double k = spec_.stiffness_scale / (sum * step * step);
       stiffness_.push_back(k);
@@ -29,16 +25,31 @@ class Joint final : public ContactInterface {
       omega2 += k * sum;
     }
     stable_step_ = 2 / std::sqrt(2 * omega2);
+    if (!spec_.keeps_axis) return;
+    const double spin = a.spin_mobility() + b.spin_mobility();
+    axis_stiffness_ = spec_.stiffness_scale / (spin * step * step);
+    axis_damping_ = 2 * spec_.damping_ratio * std::sqrt(axis_stiffness_ / spin);
   }
 
-  /// Places of the points in their bodies, a and b in turn.
+  /// Places of the points in their bodies, a and b in turn; then the axis in a and in b.
   void initialise(ContactHistory& history, const ContactContext& context) const override {
     history = {};
+    const Pose in_a = body(context, spec_.body_a).X_WB.inverse(),
+               in_b = body(context, spec_.body_b).X_WB.inverse();
+    const auto add = [&](const Vec3& v) {
+      history.values.insert(history.values.end(), {v.x(), v.y(), v.z()});
+    };
+    const auto at = [&](int node) {
+      return context.nodes[static_cast<std::size_t>(node)].position();
+    };
     for (const auto& [first, second] : spec_.points) {
-      const Vec3 a = context.bodies[spec_.body_a].X_WB.inverse() * context.nodes[first].position();
-      const Vec3 b = context.bodies[spec_.body_b].X_WB.inverse() * context.nodes[second].position();
-      history.values.insert(history.values.end(), {a.x(), a.y(), a.z(), b.x(), b.y(), b.z()});
+      add(in_a * at(first));
+      add(in_b * at(second));
     }
+    if (spec_.hold == JointHold::All) return;
+    const Vec3 axis = (at(spec_.axis.second) - at(spec_.axis.first)).normalized();
+    add(in_a.q * axis);
+    add(in_b.q * axis);
   }
 
   int max_nodal_loads() const override { return 0; }
@@ -46,33 +57,81 @@ class Joint final : public ContactInterface {
   ContactReport forces(const ContactContext& context, ContactHistory& history,
                        ContactLoads& loads) const override {
     ContactReport report;
-    const BodyMotionView &a = context.bodies[spec_.body_a], &b = context.bodies[spec_.body_b];
+    const BodyMotionView &a = body(context, spec_.body_a), &b = body(context, spec_.body_b);
+    const double* axes = history.values.data() + 6 * spec_.points.size();
+    Vec3 axis = Vec3::Zero();
+    if (spec_.hold != JointHold::All) axis = a.X_WB.q * Vec3(Eigen::Map<const Vec3>(axes));
+    double omega2 = 0;
     for (std::size_t i = 0; i < spec_.points.size(); ++i) {
       const double* place = history.values.data() + 6 * i;
       const Vec3 at_a = a.X_WB * Vec3(Eigen::Map<const Vec3>(place)),
                  at_b = b.X_WB * Vec3(Eigen::Map<const Vec3>(place + 3));
-      const Vec3 gap = at_b - at_a, middle = 0.5 * (at_a + at_b);
+      // The axis turns with a, so the force acts on a where it acts on b; without an axis half way.
+      const Vec3 where = spec_.hold == JointHold::All ? Vec3(0.5 * (at_a + at_b)) : at_b;
+      const Vec3 gap = held(at_b - at_a, axis);
       const Vec3 velocity =
-          b.V_WB.shifted(middle - b.X_WB.p).v - a.V_WB.shifted(middle - a.X_WB.p).v;
+          held(b.V_WB.shifted(where - b.X_WB.p).v - a.V_WB.shifted(where - a.X_WB.p).v, axis);
       const Vec3 force = stiffness_[i] * gap + damping_[i] * velocity;
-      loads.on_body[spec_.body_a].f += force;
-      loads.on_body[spec_.body_a].tau += (middle - a.X_WB.p).cross(force);
-      loads.on_body[spec_.body_b].f -= force;
-      loads.on_body[spec_.body_b].tau -= (middle - b.X_WB.p).cross(force);
+      Wrench &on_a = on(loads, spec_.body_a), &on_b = on(loads, spec_.body_b);
+      on_a.f += force;
+      on_a.tau += (where - a.X_WB.p).cross(force);
+      on_b.f -= force;
+      on_b.tau -= (where - b.X_WB.p).cross(force);
       report.force += force;
       report.stored += 0.5 * stiffness_[i] * gap.squaredNorm();
       report.damping_dissipated += damping_[i] * velocity.squaredNorm() * context.dt;
       report.max_penetration = std::max(report.max_penetration, gap.norm());
+      omega2 += stiffness_[i] * (a_.mobility(where - a.X_WB.p) + b_.mobility(where - b.X_WB.p));
     }
     report.active = static_cast<int>(spec_.points.size());
     report.stable_step = stable_step_;
+    if (spec_.hold == JointHold::All) return report;
+    if (spec_.keeps_axis) {
+      keep_axis(a, b, axis, b.X_WB.q * Vec3(Eigen::Map<const Vec3>(axes + 3)), context.dt, loads,
+                report);
+      omega2 += axis_stiffness_ * (a_.spin_mobility() + b_.spin_mobility());
+    }
+    report.stable_step = 2 / std::sqrt(2 * omega2);  // arms change as the bodies slide
     return report;
   }
 
  private:
+  static const BodyMotionView& body(const ContactContext& context, int index) {
+    return context.bodies[static_cast<std::size_t>(index)];
+  }
+  static Wrench& on(ContactLoads& loads, int index) {
+    return loads.on_body[static_cast<std::size_t>(index)];
+  }
+
+  Vec3 held(const Vec3& v, const Vec3& axis) const {
+    switch (spec_.hold) {
+      case JointHold::AcrossAxis:
+        return v - axis.dot(v) * axis;
+      case JointHold::AlongAxis:
+        return axis.dot(v) * axis;
+      case JointHold::All:
+        break;
+    }
+    return v;
+  }
+
+  /// Couples that turn the axis of b back to that of a: the potential is k/2 times the square of
+  /// the sine between them.
+  void keep_axis(const BodyMotionView& a, const BodyMotionView& b, const Vec3& axis_a,
+                 const Vec3& axis_b, double dt, ContactLoads& loads, ContactReport& report) const {
+    const auto across = [&](const Vec3& v) { return Vec3(v - axis_a.dot(v) * axis_a); };
+    const Vec3 off = across(axis_b), rate = across((b.V_WB.w - a.V_WB.w).cross(axis_b));
+    const Vec3 couple = axis_b.cross(Vec3(axis_stiffness_ * off + axis_damping_ * rate));
+    on(loads, spec_.body_a).tau += couple;
+    on(loads, spec_.body_b).tau -= couple;
+    report.stored += 0.5 * axis_stiffness_ * off.squaredNorm();
+    report.damping_dissipated += axis_damping_ * rate.squaredNorm() * dt;
+  }
+
   JointSpec spec_;
+  JointBody a_, b_;
   std::vector<double> stiffness_, damping_;
-  double stable_step_ = 0;
+  double stable_step_ = 0, axis_stiffness_ = 0, axis_damping_ = 0;
 };
 
 }  // namespace

@@ -58,6 +58,7 @@ void build_blocks(BuildContext& context);
 void build_conditions(BuildContext& context);
 void build_pressures(BuildContext& context);
 void build_joints(BuildContext& context);
+void build_joint_stiffness(BuildContext& context);
 void build_contacts(BuildContext& context);
 void build_mesh_contacts(BuildContext& context);
 void build_outputs(BuildContext& context);

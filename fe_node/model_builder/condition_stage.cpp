@@ -263,7 +263,6 @@ class ConditionStage {
   void refuse_the_rest() {
     const Deck& d = c_.deck;
     refuse(d.rigid_loads, "*LOAD_RIGID_BODY", "loads on nodes");
-    refuse(d.joint_stiffnesses, "*CONSTRAINED_JOINT_STIFFNESS", "joints without stiffness");
     refuse(d.interpolations, "*CONSTRAINED_INTERPOLATION", "ties without interpolation");
     refuse(d.inertias, "*ELEMENT_INERTIA", "*ELEMENT_MASS or *PART_INERTIA");
     refuse(d.erosions, "*MAT_ADD_EROSION", "failure within the material law");

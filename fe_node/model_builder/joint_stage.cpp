@@ -6,18 +6,32 @@
 namespace crosswalk::fe {
 namespace {
 
-/// Node pairs that stay together: one in a spherical joint, two in a revolute, three in a locking.
-int pair_count(JointKind kind) {
+/// What a kind of joint holds: pairs of nodes on its card, how many of them are held and in which
+/// part of their gap, and whether the axis from node 1 to node 3 stays parallel.
+struct JointForm {
+  int pairs = 0, held = 0;
+  JointHold hold = JointHold::All;
+  bool keeps_axis = false;
+};
+
+JointForm form_of(JointKind kind) {
   switch (kind) {
     case JointKind::Spherical:
-      return 1;
+      return {.pairs = 1, .held = 1};
     case JointKind::Revolute:
-      return 2;
+      return {.pairs = 2, .held = 2};
     case JointKind::Locking:
-      return 3;
-    default:
-      return 0;
+      return {.pairs = 3, .held = 3};
+    case JointKind::Cylindrical:
+      return {.pairs = 2, .held = 2, .hold = JointHold::AcrossAxis};
+    case JointKind::Translational:
+      return {.pairs = 3, .held = 3, .hold = JointHold::AcrossAxis};
+    case JointKind::Planar:
+      return {.pairs = 2, .held = 1, .hold = JointHold::AlongAxis, .keeps_axis = true};
+    case JointKind::Universal:
+      break;
   }
+  return {};
 }
 
 class JointStage {
@@ -31,9 +45,11 @@ class JointStage {
 
   void add(const Joint& card) {
     const std::string who = fmt::format("*CONSTRAINED_JOINT {}", card.id.value);
-    const int pairs = pair_count(card.kind);
-    if (pairs == 0) {
-      c_.problem(card.source, who, "a spherical, revolute or locking joint", "another kind");
+    const JointForm form = form_of(card.kind);
+    if (form.pairs == 0) {
+      c_.problem(card.source, who,
+                 "a spherical, revolute, cylindrical, planar, translational or locking joint",
+                 "another kind");
       return;
     }
     JointSpec spec;
@@ -41,13 +57,21 @@ class JointStage {
     spec.stiffness_scale *= card.penalty_scale > 0 ? card.penalty_scale : 1;
     spec.damping_ratio *= card.damping > 0 ? card.damping : 1;
     spec.body_a = spec.body_b = -1;
-    for (int i = 0; i < pairs; ++i) {
+    spec.hold = form.hold;
+    spec.keeps_axis = form.keeps_axis;
+    for (int i = 0; i < form.pairs; ++i) {
       const int a = node(card, 2 * i, who), b = node(card, 2 * i + 1, who);
       if (a < 0 || b < 0) return;
       if (!belongs(card, who, a, spec.body_a) || !belongs(card, who, b, spec.body_b)) return;
       const double gap = (c_.mesh().position[a] - c_.mesh().position[b]).norm();
       if (i == 0 || gap > largest_gap_) largest_gap_ = gap;
-      spec.points.emplace_back(a, b);
+      if (i < 2) (i == 0 ? spec.axis.first : spec.axis.second) = a;
+      if (i < form.held) spec.points.emplace_back(a, b);
+    }
+    if (form.hold != JointHold::All &&
+        c_.mesh().position[spec.axis.first] == c_.mesh().position[spec.axis.second]) {
+      c_.problem(card.source, who, "an axis from node 1 to node 3", "both at one place");
+      return;
     }
     const RigidBody &a = c_.model().bodies[spec.body_a], &b = c_.model().bodies[spec.body_b];
     if (spec.body_a == spec.body_b || (a.role != BodyRole::Free && b.role != BodyRole::Free)) {

@@ -129,6 +129,13 @@ void add_joints(BuiltModel& built, double step) {
         make_joint(std::move(joint), a, b, built.model.mesh.position, step));
   }
   built.joints.clear();
+  for (JointStiffnessSpec& spec : built.joint_stiffnesses) {
+    const std::vector<RigidBody>& bodies = built.model.bodies;
+    spec.reference_origin = bodies[spec.reference_body].origin;
+    const JointBody a = joint_body(bodies[spec.body_a]), b = joint_body(bodies[spec.body_b]);
+    built.model.contacts.push_back(make_joint_stiffness(std::move(spec), a, b, step));
+  }
+  built.joint_stiffnesses.clear();
 }
 
 }  // namespace
@@ -164,6 +171,7 @@ BuiltModel build_model(const Deck& deck, const BuildOptions& options) {
   build_conditions(context);
   build_pressures(context);
   build_joints(context);
+  build_joint_stiffness(context);
   build_contacts(context);
   build_mesh_contacts(context);
   build_outputs(context);

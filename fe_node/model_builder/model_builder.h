@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fe_node/contact/joint.h"
+#include "fe_node/contact/joint_stiffness.h"
 #include "fe_node/contact/mesh_contact.h"
 #include "fe_node/contact/rigid_surface.h"
 #include "fe_node/deck/deck.h"
@@ -39,8 +40,9 @@ struct BuiltModel {
   int part_set(std::string_view name) const;  ///< index, or -1
   /// Rigid walls, added to the model by finish_model() when the stable step is known.
   std::vector<RigidSurfaceSpec> walls;
-  std::vector<MeshContactSpec> mesh_contacts;  ///< likewise
-  std::vector<JointSpec> joints;               ///< likewise; the last contacts of the model
+  std::vector<MeshContactSpec> mesh_contacts;         ///< likewise
+  std::vector<JointSpec> joints;                      ///< likewise; the last contacts of the model
+  std::vector<JointStiffnessSpec> joint_stiffnesses;  ///< likewise, behind the joints
 };
 
 /// Adds the rigid walls, calls Model::finish() and reports added mass.

@@ -15,7 +15,6 @@ namespace crosswalk {
 struct Multicast {
   std::string defect;     ///< why it did not come back; empty when it did
   std::string interface;  ///< the one it went through
-  bool stays_here() const { return defect.empty() && interface == "lo"; }
 };
 Multicast probe_multicast();
 /// True when no other process listens on the UDP port.

@@ -35,6 +35,7 @@ ContactLoads::ContactLoads(const MbModel& model) : model_(model) {
 
 void ContactLoads::apply(const Kinematics& now, double dt, bool is_on_ground, MbState& state,
                          std::vector<Wrench>& loads) {
+  is_on_ground_ = is_on_ground;
   pushes_.clear();
   report_.contacts = 0;
   report_.contact_set = 14695981039346656037ULL;
@@ -206,8 +207,16 @@ void ContactLoads::book(const Kinematics& before, const Kinematics& after,
   }
 }
 
-double ContactLoads::stored_energy(const Kinematics& after, double dt, const MbState& state) const {
+double ContactLoads::ground_energy(const Kinematics& now) const {
   double energy = 0;
+  for (const SurfacePart& part : model_.parts)
+    if (const auto o = overlap_with_plane(posed(now, part), Vec3::UnitZ(), Vec3::Zero()))
+      energy += 0.5 * part.ground_stiffness * o->depth * o->depth;
+  return energy;
+}
+
+double ContactLoads::stored_energy(const Kinematics& after, double dt, const MbState& state) const {
+  double energy = is_on_ground_ ? 0 : ground_energy(after);
   for (const Push& push : pushes_) {
     const Vec3 v_other = velocity_of_other(after, state.vehicle, push);
     const Vec3 v = after.velocity(push.segment, push.point) - v_other;

@@ -35,7 +35,8 @@ class ContactLoads {
   void book(const Kinematics& before, const Kinematics& after, const VehicleState& car_before,
             double dt, MbState& state) const;
   /// Stored in all contacts after the substep; adds what the next call of apply() will book as
-  /// lost by hysteresis for it.
+  /// lost by hysteresis for it. The ground counts also while a support holds the body over it: it
+  /// is pressed as far as it will carry once the support lets go.
   double stored_energy(const Kinematics& after, double dt, const MbState& state) const;
 
   const ContactReport& report() const { return report_; }
@@ -57,6 +58,7 @@ class ContactLoads {
   void push_car(const Kinematics& now, const MbState& state, int i, const PanelTouch& touch,
                 const Overlap& o, std::vector<Wrench>& loads);
   void touch_ground(const Kinematics& now, std::vector<Wrench>& loads);
+  double ground_energy(const Kinematics& now) const;
   void touch_self(const Kinematics& now, MbState& state, std::vector<Wrench>& loads);
   /// Normal force and Coulomb friction of a push; `friction` is the coefficient.
   void add(const Kinematics& now, const Vec3& v_other, double force, double friction,
@@ -70,6 +72,7 @@ class ContactLoads {
   std::vector<PanelTouch> touches_;
   std::vector<Overlap> overlaps_;
   ContactReport report_;
+  bool is_on_ground_ = false;
 };
 
 }  // namespace crosswalk::mb

@@ -57,7 +57,8 @@ void MbNode::rebuild(const std::vector<Inertia>& blocks) {
   world_ = std::make_unique<OdeWorld>(build_world(*model_, blocks));
   dynamics_ = std::make_unique<Dynamics>(*model_, *world_);
   start_motion_ = dynamics_->kinetic_energy() + dynamics_->gravity_energy();
-  start_energy_ = start_motion_ + dynamics_->joint_energy(state_);
+  start_energy_ =
+      start_motion_ + dynamics_->joint_energy(state_) + dynamics_->contact_energy(state_);
 }
 
 BodyMotion MbNode::motion_of(const std::string& body) const {

@@ -24,7 +24,8 @@ class Network : public testing::Environment {
  public:
   void SetUp() override {
     const Multicast here = probe_multicast();
-    const std::string obstacle = here.stays_here() ? "" : enter_private_network();
+    const std::string obstacle =
+        here.defect.empty() && here.interface == "lo" ? "" : enter_private_network();
     if (!here.defect.empty()) {
       ASSERT_EQ(obstacle, "");
     }

@@ -10,16 +10,6 @@ namespace crosswalk::fe {
 
 namespace {
 
-/// Cross-section area of a beam section; 0 where it has none (discrete beams).
-double beam_area(const SectionBeam& beam) {
-  if (beam.formulation == 2 || beam.formulation == 3) return beam.area;
-  if (beam.formulation == 6) return 0;
-  const double outer = beam.outer_s[0], inner = beam.outer_t[0];
-  if (beam.cross_section == 1 || beam.formulation == 9)
-    return std::numbers::pi / 4 * (outer * outer - inner * inner);
-  return outer * inner;  // rectangle: TS is the height along s, TT the width along t
-}
-
 class Builder {
  public:
   explicit Builder(const DeckIndex& index) : index_(index), deck_(index.deck()) {
@@ -153,6 +143,15 @@ double PartTable::mass() const {
   double sum = nodal_mass;
   for (const PartRow& row : rows) sum += row.mass + row.added_mass;
   return sum;
+}
+
+double beam_area(const SectionBeam& beam) {
+  if (beam.formulation == 2 || beam.formulation == 3) return beam.area;
+  if (beam.formulation == 6) return 0;
+  const double outer = beam.outer_s[0], inner = beam.outer_t[0];
+  if (beam.cross_section == 1 || beam.formulation == 9)
+    return std::numbers::pi / 4 * (outer * outer - inner * inner);
+  return outer * inner;  // rectangle: TS is the height along s, TT the width along t
 }
 
 PartTable part_table(const DeckIndex& index) { return Builder(index).run(); }

@@ -23,6 +23,9 @@ struct PartTable {
   double mass() const;
 };
 
+/// Cross-section area of a beam section, deck units; 0 where it has none (discrete beams).
+double beam_area(const SectionBeam& beam);
+
 PartTable part_table(const DeckIndex& index);
 
 }  // namespace crosswalk::fe

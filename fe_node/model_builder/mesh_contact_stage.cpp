@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "fe_node/deck/part_table.h"
 #include "fe_node/model_builder/build_context.h"
 #include "fe_node/model_builder/law_stage.h"
 
@@ -105,7 +106,11 @@ class MeshContactStage {
                  "a tiebreak");
       return;
     }
-    if (c_.problem_count == 0) c_.built.mesh_contacts.push_back(std::move(spec));
+    if (c_.problem_count > 0) return;
+    std::optional<MeshContactSpec> edges;
+    if (asks_for_edges()) edges = edge_contact(spec);
+    c_.built.mesh_contacts.push_back(std::move(spec));
+    if (edges) c_.built.mesh_contacts.push_back(std::move(*edges));
   }
 
  private:
@@ -132,6 +137,45 @@ class MeshContactStage {
                         card_.id.value));
     }
     return s;
+  }
+
+  /// Edges meet edges in *CONTACT_AUTOMATIC_GENERAL and, of surfaces, with SOFT 2 and DEPTH 5.
+  bool asks_for_edges() const {
+    if (card_.kind == ContactKind::General) return true;
+    const bool is_penalty =
+        card_.kind == ContactKind::SingleSurface || card_.kind == ContactKind::SurfaceToSurface;
+    return is_penalty && card_.card_a && card_.card_a->soft == 2 && card_.card_a->depth >= 5;
+  }
+
+  std::optional<MeshContactSpec> edge_contact(const MeshContactSpec& surfaces) {
+    MeshContactSpec spec;
+    spec.name = surfaces.name + ", edges";
+    spec.kind = MeshContactSpec::Kind::Edges;
+    spec.settings = surfaces.settings;
+    spec.first = surfaces.first;
+    spec.first_edges = edges_of(card_.slave, surfaces.first);
+    if (surfaces.kind == MeshContactSpec::Kind::Surfaces)
+      spec.second_edges = edges_of(card_.master, surfaces.second);
+    const bool needs_two = surfaces.kind == MeshContactSpec::Kind::Surfaces;
+    if (spec.first_edges.empty() || (needs_two && spec.second_edges.empty())) return std::nullopt;
+    return spec;
+  }
+
+  /// Free edges of the side's shells; in *CONTACT_AUTOMATIC_GENERAL its beams too.
+  std::vector<ContactEdge> edges_of(const ContactSide& side, const ContactSurface& surface) {
+    std::vector<ContactEdge> edges = free_edges(surface);
+    if (card_.kind != ContactKind::General) return edges;
+    for (int p : parts_of(side)) {
+      const Part& part = c_.deck.parts[p];
+      const Section* section = c_.section_of(part);
+      const auto* beam = section == nullptr ? nullptr : std::get_if<SectionBeam>(&section->law);
+      if (beam == nullptr) continue;
+      const double section_area = beam->formulation == 6 ? beam->cable_area : beam_area(*beam);
+      const double area = section_area * c_.units.length * c_.units.length;
+      const auto more = line_edges(c_.mesh(), p, area, contact_bulk_modulus(c_, part));
+      edges.insert(edges.end(), more.begin(), more.end());
+    }
+    return edges;
   }
 
   std::vector<int> parts_of(const ContactSide& side) {

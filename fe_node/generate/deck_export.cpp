@@ -50,6 +50,7 @@ MaterialLaw in_units(MaterialLaw law, const UnitFactors& u) {
                    m.peak_stress /= u.stress();
                    m.maximum_rate *= u.time;
                  },
+                 [&](mat::CableDiscreteBeam& m) { m.youngs /= u.stress(); },
                  [](mat::SpringNonlinearElastic&) {},
                  [](auto&) { CW_ASSERT(false && "law without unit rule"); }},
       law);
@@ -90,6 +91,7 @@ class Export {
     Part part{.id = DeckId(spec.id), .title = spec.name};
     part.material = DeckId(spec.id);
     part.section = section(spec);
+    part.is_averaged = spec.is_strand;
     if (const auto* solid = std::get_if<SolidSection>(&spec.section);
         solid != nullptr && !is_full(*solid))
       part.hourglass = hourglass(*solid);
@@ -115,6 +117,11 @@ class Export {
                           [&](const TrussSection& truss) {
                             SectionBeam beam{.formulation = 3};
                             beam.area = truss.area / (units_.length * units_.length);
+                            section.law = beam;
+                          },
+                          [&](const CableSection& cable) {
+                            SectionBeam beam{.formulation = 6};
+                            beam.cable_area = cable.area / (units_.length * units_.length);
                             section.law = beam;
                           },
                           [&](const ShellSection& shell) { section.law = shell_section(shell); }},
@@ -164,13 +171,15 @@ class Export {
       for (int c = 0; c < 4; ++c) shell.nodes[c] = node_id(quad.node[c]);
       deck_.shells.push_back(shell);
     }
-    std::set<int> trusses;
+    std::set<int> beams;
     for (const PartSpec& part : draft_.parts)
-      if (std::holds_alternative<TrussSection>(part.section)) trusses.insert(part.id);
+      if (std::holds_alternative<TrussSection>(part.section) ||
+          std::holds_alternative<CableSection>(part.section))
+        beams.insert(part.id);
     for (const Line& line : draft_.mesh.lines) {
       const std::array<DeckId, 2> ends{node_id(line.from), node_id(line.to)};
       ++id;
-      if (trusses.count(line.part) > 0)
+      if (beams.count(line.part) > 0)
         deck_.beams.push_back(
             {.id = DeckId(id), .part = DeckId(line.part), .nodes = {ends[0], ends[1], {}}});
       else
@@ -183,11 +192,24 @@ class Export {
                               .mass = point.mass / units_.mass});
   }
 
+  std::pair<double, double> units_of(CurveAxes axes) const {
+    switch (axes) {
+      case CurveAxes::StressOverStrain:
+        return {1, units_.stress()};
+      case CurveAxes::FactorOverVelocity:
+        return {units_.velocity(), 1};
+      case CurveAxes::FactorOverTime:
+        return {units_.time, 1};
+      default:
+        return {units_.length, units_.force()};
+    }
+  }
+
   void add_curves() {
     for (const CurveSpec& spec : draft_.curves) {
       DeckCurve curve{.id = DeckId(spec.id), .title = spec.name};
-      for (const auto& [x, y] : spec.points)
-        curve.points.emplace_back(x / units_.length, y / units_.force());
+      const auto [x_unit, y_unit] = units_of(spec.axes);
+      for (const auto& [x, y] : spec.points) curve.points.emplace_back(x / x_unit, y / y_unit);
       deck_.curves.push_back(curve);
     }
   }

@@ -6,6 +6,7 @@
 
 #include "common/units.h"
 #include "fe_node/generate/deck_export.h"
+#include "fe_node/generate/discs.h"
 #include "fe_node/generate/head_mesh.h"
 #include "fe_node/generate/ligaments.h"
 #include "fe_node/generate/membranes.h"
@@ -69,6 +70,7 @@ class Assembly {
     marks.tragion = marks.condyles - shape_.scale().cwiseProduct(condyles_frankfurt);
     if (spec.fit) marks.tragion = marks.c7_t1 + spec.fit->head_centre - head_offset;
     spine_ = spine_of(spec.stature, neck, marks.tragion, shape_.scale());
+    result_.spine = spine_;
   }
 
   HeadNeck run() {
@@ -78,6 +80,7 @@ class Assembly {
     add_spine(draft(), spine_, resolution_.spine);
     add_clavicle_blocks();
     attach_flesh();
+    add_disc_fibres(draft(), spine_);
     add_ligaments(draft(), spine_);
     add_muscles(draft(), spine_, shape_.scale(),
                 {.area_factor = spec_.muscle_area_factor, .activation = spec_.activation});

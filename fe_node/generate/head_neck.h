@@ -14,6 +14,7 @@
 #include "fe_node/generate/head_shape.h"
 #include "fe_node/generate/mass_report.h"
 #include "fe_node/generate/part_spec.h"
+#include "fe_node/generate/spine.h"
 
 namespace crosswalk {
 class ConfigTable;
@@ -52,6 +53,7 @@ struct Landmarks {
 
 struct HeadNeck {
   ModelDraft draft;
+  Spine spine;
   Landmarks landmarks;
   MassReport masses;
 };

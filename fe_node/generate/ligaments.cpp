@@ -43,17 +43,26 @@ constexpr std::array<std::pair<double, double>, 13> kShape{{{-2, 0},
                                                             {2.5, 0},
                                                             {5, 0}}};
 
+/// Force over that at rest, by strain rate in 1/s: 1.14 to 1.5 at 10, 1.3 at 72 [vivaplus2022]
+/// [mattucci2012], 1 + 0.15 lg(rate / 0.24) with a gentle start [E].
+constexpr std::array<std::pair<double, double>, 6> kRateFactor{
+    {{-1e3, 1}, {0, 1}, {10, 1.24}, {70, 1.37}, {500, 1.5}, {1e4, 1.5}}};
+constexpr int kFirstRateCurve = 4200;
+
 /// Facet cartilage: nominal strain and stress in compression (Pa) [vivaplus2022]; two layers of 0.5
-/// mm over 100 mm2, behind a gap of 0.4 mm [L, medium].
+/// mm over 100 mm2, behind a gap of 0.5 mm (0.3 to 0.6 [L, medium]).
 constexpr std::array<std::pair<double, double>, 6> kCartilage{
     {{0.05, 0.42e6}, {0.1, 1.01e6}, {0.2, 3.06e6}, {0.3, 7.17e6}, {0.4, 15.4e6}, {0.5, 32.1e6}}};
-constexpr double kFacetGap = 0.4e-3, kCartilageThickness = 1e-3, kFacetArea = 100e-6;
+constexpr double kFacetGap = 0.5e-3, kCartilageThickness = 1e-3, kFacetArea = 100e-6;
 /// Gaps after which bone meets bone in the two pivot joints, m; set so that single joints turn
 /// about as far at 1 N m as in cadaver necks [panjabi2001] [E].
 constexpr double kCondyleSideGap = 1.2e-3, kCondyleFrontGap = 0.9e-3, kCondyleBackGap = 3.2e-3,
                  kCondyleTwistGap = 1.6e-3;
 constexpr double kAtlasSideGap = 0.7e-3, kAtlasBackGap = 5.0e-3;
-constexpr double kFacetStrut = 16e-3;  ///< length; sliding by s lengthens it by s^2 / (2 length)
+/// A facet is a plane of the lower body on which four points of the upper one slide: struts along
+/// the normal whose other end lies so far below the plane that sliding by s lifts a point by
+/// s^2 / (2 length) only, 0.1 mm for 5 mm.
+constexpr double kFacetStrut = 120e-3, kFacetPoint = 3.5e-3;
 
 /// Translational stiffness of one pivot strut, N/m; four meet, giving 0.6 to 2 MN/m, the order of
 /// whole segments in compression (1.3 MN/m) [moroney1988] [E].
@@ -112,6 +121,13 @@ class Builder {
          .grade = grade});
   }
 
+  DeckId rate_curve(int id, double length) {
+    CurveSpec curve{.id = id, .name = "rate", .points = {}, .axes = CurveAxes::FactorOverVelocity};
+    for (const auto& [rate, factor] : kRateFactor) curve.points.emplace_back(rate * length, factor);
+    draft_.curves.push_back(curve);
+    return DeckId(id);
+  }
+
   void add_ligament(const LigamentData& data, const std::string& where, const Ends& ends) {
     const int id = part::kFirstLigament + ligaments_++;
     CurveSpec curve{.id = id, .name = data.name + where, .points = {}};
@@ -120,7 +136,18 @@ class Builder {
                                 f * data.failure_force / static_cast<double>(ends.size()));
     add_part(id, data.name + where, curve, "failure force and elongation of ligament tests",
              Grade::Literature);
+    double length = 0;
+    for (const auto& [a, b] : ends)
+      length += (a.point - b.point).norm() / static_cast<double>(ends.size());
+    std::get<mat::SpringNonlinearElastic>(draft_.parts.back().law).rate_curve =
+        rate_curve(kFirstRateCurve + ligaments_ - 1, length);
     for (const auto& [a, b] : ends) add_line(id, a, b);
+  }
+
+  /// Four unit vectors in the plane of a facet.
+  static std::array<Vec3, 4> facet_rim(const Vec3& normal) {
+    const Vec3 along = normal.cross(Vec3::UnitY()).normalized(), across = along.cross(normal);
+    return {across, along, -across, -along};
   }
 
   void add_level(Level upper) {
@@ -137,9 +164,9 @@ class Builder {
       const double y = side * 6 * s_;
       flavum.push_back({on(upper, -0.5 * u.depth() - u.canal_depth, y, -3 * s_),
                         on(lower, -0.5 * l.depth() - l.canal_depth, y, 3 * s_)});
-      const Vec3 centre = spine_.facet_centre(upper, side), normal = spine_.facet_normal(upper);
-      const Vec3 across = Vec3::UnitY(), along = normal.cross(across);
-      for (const Vec3& rim : {across, along, Vec3(-across), Vec3(-along)}) {
+      const Vec3 centre = spine_.facet_centre(upper, side),
+                 normal = spine_.facet_normal(upper, side);
+      for (const Vec3& rim : facet_rim(normal)) {
         const Vec3 p = centre + 5 * s_ * rim;
         capsule.push_back({{upper, p + 3 * s_ * normal}, {lower, p - 3 * s_ * normal}});
       }
@@ -208,12 +235,11 @@ class Builder {
   }
 
   /// A part of struts that push like cartilage once `gap` is closed.
-  int contact_part(const std::string& name, double gap, const std::string& source) {
+  int contact_part(const std::string& name, double gap, double area, const std::string& source) {
     const int id = part::kFacet + contacts_++;
     CurveSpec curve{.id = id, .name = name, .points = {}};
     for (auto point = kCartilage.rbegin(); point != kCartilage.rend(); ++point)
-      curve.points.emplace_back(-gap - point->first * kCartilageThickness,
-                                -point->second * kFacetArea);
+      curve.points.emplace_back(-gap - point->first * kCartilageThickness, -point->second * area);
     curve.points.insert(curve.points.end(), {{-gap, 0}, {0, 0}, {1e-2, 0}});
     add_part(id, name, curve, source, Grade::Estimate);
     return id;
@@ -224,29 +250,37 @@ class Builder {
   void add_stops() {
     const char* source = "gap set against joint ranges of Panjabi 2001";
     const double x = kCondyleFrankfurtX, z = kCondyleFrankfurtZ;
-    int part = contact_part("condyle_side", kCondyleSideGap, source);
+    int part = contact_part("condyle_side", kCondyleSideGap, kFacetArea, source);
     for (const double y : {-20.0, 20.0}) add_line(part, at(C1, 0, y, -5), at(C0, x, y, z));
-    add_line(contact_part("condyle_front", kCondyleFrontGap, source), at(C1, 10, 0, -5),
+    add_line(contact_part("condyle_front", kCondyleFrontGap, kFacetArea, source), at(C1, 10, 0, -5),
              at(C0, x + 10, 0, z));
-    add_line(contact_part("condyle_back", kCondyleBackGap, source), at(C1, -10, 0, -5),
+    add_line(contact_part("condyle_back", kCondyleBackGap, kFacetArea, source), at(C1, -10, 0, -5),
              at(C0, x - 10, 0, z));
-    part = contact_part("condyle_twist", kCondyleTwistGap, source);
+    part = contact_part("condyle_twist", kCondyleTwistGap, kFacetArea, source);
     for (const double y : {-20.0, 20.0}) add_line(part, at(C1, -14, y, 7), at(C0, x, y, z));
-    part = contact_part("atlas_side", kAtlasSideGap, source);
-    for (const double y : {-17.0, 17.0}) add_line(part, at(C2, -2.4, y, 4), at(C1, 5, y, -4.5));
-    add_line(contact_part("atlas_back", kAtlasBackGap, source), at(C2, -33, 0, -6),
+    part = contact_part("atlas_side", kAtlasSideGap, kFacetArea, source);
+    // The atlas turns by 30 degrees on the axis, its facets by 9 mm: planes as at the facets below.
+    const Vec3 up = spine_[C2].X_NB.R() * Vec3::UnitZ();
+    for (const double y : {-17.0, 17.0}) {
+      const End facet = at(C1, 5, y, -4.5);
+      add_line(part, {C2, facet.point - kFacetStrut * up}, facet);
+    }
+    add_line(contact_part("atlas_back", kAtlasBackGap, kFacetArea, source), at(C2, -33, 0, -6),
              at(C1, -22, 0, -4.5));
   }
 
   void add_facets(Level upper) {
     if (facet_part_ == 0)
-      facet_part_ =
-          contact_part("facets", kFacetGap, "cartilage curve of VIVA+, gap and area estimated");
+      facet_part_ = contact_part("facets", kFacetGap, 0.25 * kFacetArea,
+                                 "cartilage curve of VIVA+, gap and area estimated");
     const Level lower = static_cast<Level>(upper + 1);
-    const Vec3 half = 0.5 * kFacetStrut * spine_.facet_normal(upper);
     for (const int side : {-1, 1}) {
-      const Vec3 centre = spine_.facet_centre(upper, side);
-      add_line(facet_part_, {lower, centre - half}, {upper, centre + half});
+      const Vec3 centre = spine_.facet_centre(upper, side),
+                 normal = spine_.facet_normal(upper, side);
+      for (const Vec3& rim : facet_rim(normal)) {
+        const Vec3 point = centre + spine_.scale * kFacetPoint * rim;
+        add_line(facet_part_, {lower, point - kFacetStrut * normal}, {upper, point});
+      }
     }
   }
 

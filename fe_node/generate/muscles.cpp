@@ -1,5 +1,6 @@
 #include "fe_node/generate/muscles.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <string>
@@ -20,6 +21,8 @@ constexpr double kPassiveExponent = 6;
 constexpr double kMaximumRate = 5;  // fibre lengths per second, 4 to 10 [L]
 // The mass of muscles is in the flesh; a strand only needs enough for its own stable step.
 constexpr double kStrandDensity = 20;  // kg/m3
+// Strands are held by the vertebrae they pass within this distance, m [E]; not next to their ends.
+constexpr double kViaReach = 0.045, kViaMargin = 0.06;
 
 /// Reference position of a skull point, Frankfurt frame, mm, left side [E].
 Vec3 skull_point(Site site) {
@@ -79,8 +82,15 @@ class Builder {
   void run() {
     for (const Strand& strand : neck_strands()) {
       const int part = part_of(strand);
-      for (const int side : {1, -1})
-        draft_.mesh.lines.push_back({node(strand.upper, side), node(strand.lower, side), part});
+      for (const int side : {1, -1}) {
+        int from = node(strand.upper, side);
+        const int end = node(strand.lower, side);
+        for (const int via : vias(strand, from, end)) {
+          draft_.mesh.lines.push_back({from, via, part});
+          from = via;
+        }
+        draft_.mesh.lines.push_back({from, end, part});
+      }
     }
   }
 
@@ -100,9 +110,30 @@ class Builder {
                             .passive_exponent = kPassiveExponent,
                             .activation = options_.activation},
          .section = TrussSection{.area = 1e-6 * options_.area_factor * strand.area_mm2},
+         .is_strand = true,
          .source = "areas and law of VIVA+, male area factor 1.2",
          .grade = Grade::Source});
     return found->second;
+  }
+
+  /// Where a strand along the spine slides on the vertebrae between its ends: at their height on
+  /// its straight way, as long as that is near enough to the spine. Downwards.
+  std::vector<int> vias(const Strand& strand, int from, int end) {
+    std::vector<int> nodes;
+    if (!strand.follows_spine) return nodes;
+    const Vec3 a = draft_.mesh.nodes[from], b = draft_.mesh.nodes[end];
+    const int last = strand.lower.level > 0 ? strand.lower.level - 1 : T1;
+    for (int level = std::max(strand.upper.level, 0) + 1; level <= std::min<int>(last, T1);
+         ++level) {
+      const SpineBody& body = spine_.bodies[level];
+      const double share = (a.z() - body.X_NB.p.z()) / (a.z() - b.z());
+      const Vec3 p = a + share * (b - a);
+      if (share < kViaMargin || share > 1 - kViaMargin) continue;
+      if ((p - body.X_NB.p).norm() > kViaReach * spine_.scale) continue;
+      nodes.push_back(draft_.mesh.add_node(p));
+      draft_.mesh.attach(body.part, {nodes.back()});
+    }
+    return nodes;
   }
 
   int node(const StrandEnd& end, int side) {

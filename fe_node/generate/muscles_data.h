@@ -42,6 +42,7 @@ struct Strand {
   const char* muscle;
   double area_mm2;  ///< of this strand, one side
   StrandEnd upper, lower;
+  bool follows_spine = false;  ///< held by the vertebrae between its ends
 };
 
 /// All strands of one side.

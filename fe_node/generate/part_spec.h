@@ -24,6 +24,10 @@ struct ShellSection {
 struct TrussSection {
   double area = 0;  ///< m2
 };
+/// Tension only.
+struct CableSection {
+  double area = 0;  ///< m2
+};
 struct SpringSection {};
 
 /// How well a number is known: read in the named source, from the literature by memory, or
@@ -36,15 +40,20 @@ struct PartSpec {
   std::string name;
   double density = 0;  ///< kg/m3; 0 for springs
   MaterialLaw law;     ///< SI
-  std::variant<SolidSection, ShellSection, TrussSection, SpringSection> section;
-  std::string source;  ///< where the numbers come from, in few words
+  std::variant<SolidSection, ShellSection, TrussSection, CableSection, SpringSection> section;
+  bool is_strand = false;  ///< lines that follow each other share one stretch
+  std::string source;      ///< where the numbers come from, in few words
   Grade grade = Grade::Estimate;
 };
+
+/// What a curve gives over what.
+enum class CurveAxes { ForceOverElongation, StressOverStrain, FactorOverVelocity, FactorOverTime };
 
 struct CurveSpec {
   int id = 0;
   std::string name;
   std::vector<std::pair<double, double>> points;  ///< SI
+  CurveAxes axes = CurveAxes::ForceOverElongation;
 };
 
 struct PartSetSpec {

@@ -4,6 +4,7 @@
 
 #include "common/error.h"
 #include "common/units.h"
+#include "fe_node/generate/discs.h"
 #include "fe_node/generate/part_ids.h"
 #include "fe_node/generate/primitives.h"
 #include "fe_node/generate/quality.h"
@@ -86,21 +87,6 @@ void add_dens(MeshDraft& draft, const Spine& spine) {
   add_box(draft, body, {-r, -r, top}, {r, r, top + kDensHeight * body.size.z()}, {1, 1, 2});
 }
 
-/// Disc moduli [E]: one homogenised solid, of the order of isolated discs in compression and shear
-/// (0.49 MN/m, 119 kN/m [moroney1988]), then lowered by a third until the ligamentous neck turned
-/// at 1 N m as far as cadaver necks do [panjabi2001].
-PartSpec disc_spec(int id, const std::string& name) {
-  return {
-      .id = id,
-      .name = name,
-      .density = 1100,
-      .law =
-          mat::Viscoelastic{.bulk = 3.2e6, .shear_short = 1.7e6, .shear_long = 1.1e6, .decay = 20},
-      .section = SolidSection{},
-      .source = "homogenised disc, set against Moroney 1988 and Panjabi 2001",
-      .grade = Grade::Estimate};
-}
-
 PartSpec rigid_spec(int id, const std::string& name, double density, const std::string& source) {
   return {.id = id,
           .name = name,
@@ -152,6 +138,7 @@ SpineBody body_of(const VertebraData& data, int part, const ChainMap& map) {
   body.spinous = s * data.spinous;
   body.transverse = s * data.transverse;
   body.facet_angle = data.facet_deg * kDegree;
+  body.facet_medial = data.facet_medial_deg * kDegree;
   body.mass = data.mass_kg * scale * scale * scale;
   return body;
 }
@@ -195,9 +182,11 @@ Vec3 Spine::facet_centre(Level upper, int side) const {
          R * Vec3(-1e-3 * kFacetBehind * scale, side * 1e-3 * kFacetSide * scale, 0);
 }
 
-Vec3 Spine::facet_normal(Level upper) const {
+Vec3 Spine::facet_normal(Level upper, int side) const {
   const SpineBody& l = bodies[upper + 1];
-  return l.X_NB.R() * Vec3(-std::sin(l.facet_angle), 0, std::cos(l.facet_angle));
+  const double steep = std::sin(l.facet_angle);
+  return l.X_NB.R() * Vec3(-steep * std::cos(l.facet_medial),
+                           -side * steep * std::sin(l.facet_medial), std::cos(l.facet_angle));
 }
 
 Vec3 neck_base(double stature) { return 1e-3 * stature / kReferenceStature * reference_base(); }
@@ -266,7 +255,7 @@ void add_spine(ModelDraft& draft, const Spine& spine, const SpineResolution& res
                     : mesh.add_node((1 - share) * mesh.nodes[low] + share * mesh.nodes[high]);
           }
       add_cells(mesh, disc, [part](int, int, int) { return part; });
-      if (!in_one_block) draft.parts.push_back(disc_spec(part, "disc_" + upper.name + body.name));
+      if (!in_one_block) draft.parts.push_back(disc_ground(part, "disc_" + upper.name + body.name));
     }
     above = grid;
   }

@@ -27,7 +27,8 @@ struct SpineBody {
   double height = 0;
   double upper_width = 0, lower_width = 0, upper_depth = 0, lower_depth = 0;
   double canal_depth = 0, spinous = 0, transverse = 0;
-  double facet_angle = 0;  ///< rad
+  double facet_angle = 0;   ///< of the upper facets to the transverse plane, rad
+  double facet_medial = 0;  ///< by which they face the mid-plane, rad
   double mass = 0;
   Vec3 size = Vec3::Constant(1e-3);  ///< own axes: m per reference mm
   Vec3 at(double x, double y, double z) const { return X_NB * Vec3(x, y, z); }
@@ -49,9 +50,9 @@ struct Spine {
   const SpineBody& operator[](Level level) const { return bodies[level]; }
   /// Centre of the disc below a vertebra, N.
   Vec3 disc_centre(Level upper) const;
-  /// Centre and outward normal (up and back) of the facet joint below a vertebra, N.
+  /// Centre and outward normal (up and back) of the facet joint below a vertebra, N; side: 1 left.
   Vec3 facet_centre(Level upper, int side) const;
-  Vec3 facet_normal(Level upper) const;
+  Vec3 facet_normal(Level upper, int side) const;
 };
 
 /// Centre of the C7-T1 disc, N: the multibody C7/T1 joint.

@@ -5,143 +5,17 @@
 
 #include <fmt/format.h>
 
-#include "common/error.h"
 #include "common/units.h"
 #include "fe_node/generate/part_ids.h"
-#include "fe_node/generate/spine.h"
 #include "fe_node/validate/head_draft.h"
+#include "fe_node/validate/neck_moment.h"
+#include "fe_node/validate/neck_trunk.h"
 #include "fe_node/validate/validate.h"
 
 namespace crosswalk::fe::validate {
 namespace {
 
 namespace part = generate::part;
-
-generate::HeadNeck reference_neck(generate::Fidelity fidelity) {
-  generate::HeadNeckSpec spec;
-  spec.fidelity = fidelity;
-  return generate::build_head_neck(spec);
-}
-
-bool is_muscle(int id) { return id >= part::kFirstMuscle && id < part::kFlesh; }
-bool is_block(int id) {
-  return id == part::kBlockTorsoUp || id == part::kBlockClavicleLeft ||
-         id == part::kBlockClavicleRight;
-}
-
-/// Spine with discs, ligaments and joints; the occiput alone stands for the head.
-generate::ModelDraft ligamentous_spine(const generate::HeadNeck& whole) {
-  const std::vector<int> head = parts_of_set(whole.draft, "head");
-  std::vector<int> parts;
-  for (const generate::PartSpec& spec : whole.draft.parts) {
-    const bool of_head = std::find(head.begin(), head.end(), spec.id) != head.end();
-    if (is_muscle(spec.id) || spec.id == part::kFlesh) continue;
-    if (is_block(spec.id) && spec.id != part::kBlockTorsoUp) continue;
-    if (!of_head || spec.id == rigid_skull_part()) parts.push_back(spec.id);
-  }
-  return extract(whole.draft, parts);
-}
-
-/// The whole neck under a head that is one rigid body.
-generate::ModelDraft neck_with_rigid_head(const generate::HeadNeck& whole) {
-  generate::ModelDraft draft = whole.draft;
-  const std::vector<int> head = parts_of_set(draft, "head");
-  const auto of_head = [&](int id) {
-    return std::find(head.begin(), head.end(), id) != head.end();
-  };
-  // One density for one rigid part: the mass of the head stays, its centre nearly.
-  const Inertia wanted = generate::inertia_of(draft, head, true);
-  for (generate::Hex& hex : draft.mesh.hexes)
-    if (of_head(hex.part)) hex.part = rigid_skull_part();
-  draft.mesh.masses.clear();
-  std::erase_if(draft.mesh.quads, [&](const generate::Quad& q) { return of_head(q.part); });
-  std::vector<int> parts;
-  for (const generate::PartSpec& spec : draft.parts)
-    if (!of_head(spec.id) || spec.id == rigid_skull_part()) parts.push_back(spec.id);
-  generate::ModelDraft out = extract(draft, parts);
-  generate::PartSpec& rigid = out.part(rigid_skull_part());
-  rigid.density *= wanted.mass / generate::inertia_of(out, {rigid_skull_part()}, false).mass;
-  return out;
-}
-
-int body_named(const DeckRun& run, const std::string& name) {
-  const std::vector<RigidBody>& bodies = run.model().bodies;
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (bodies[b].name == name) return static_cast<int>(b);
-  CW_ASSERT(false && "rigid part of the generator");
-  return -1;
-}
-
-std::vector<int> spine_bodies(const DeckRun& run, const generate::ModelDraft& draft) {
-  std::vector<int> bodies;
-  for (int level = generate::C0; level <= generate::C7; ++level)
-    bodies.push_back(body_named(run, draft.part(rigid_skull_part() + 10 * level).name));
-  return bodies;
-}
-
-constexpr const char* kLevels[] = {"C0-C1", "C1-C2", "C2-C3", "C3-C4", "C4-C5", "C5-C6", "C6-C7"};
-
-/// Turning of the upper body in the lower one about an axis, seen along it: of z in the sagittal
-/// and the frontal plane, of x in the transverse plane. Coupled turning leaves it alone.
-double angle_about(int axis, const BodyState& upper, const BodyState& lower) {
-  const Mat3 R = (lower.X_WB.q.conjugate() * upper.X_WB.q).toRotationMatrix();
-  if (axis == 0) return std::atan2(-R(1, 2), R(2, 2));
-  if (axis == 1) return std::atan2(R(0, 2), R(2, 2));
-  return std::atan2(R(1, 0), R(0, 0));
-}
-
-/// Turns the occiput about one axis, all else free, until the moment is reached; the moment is the
-/// work done per angle. Returns the angle of each level at that moment, rad.
-std::vector<double> angles_at(const generate::ModelDraft& draft, int axis, double sense,
-                              double moment, const std::filesystem::path& folder, int threads,
-                              Series& curve) {
-  constexpr double kRate = 4, kRise = 0.020, kWindow = 0.004, kLongest = 0.45;  // rad/s, s, s, s
-  constexpr double kDamping = 60;  // 1/s, on masses; bears 3 % of the moment at most [E]
-  DeckCase deck(draft, UnitSystem::MmTonneS);
-  deck.guide_part(rigid_skull_part(), 3 + axis,
-                  {{0, 0}, {kRise, sense * kRate}, {kLongest, sense * kRate}});
-  for (int dof = 0; dof < 6; ++dof)
-    deck.guide_part(part::kBlockTorsoUp, dof, {{0, 0}, {kLongest, 0}});
-  Damping damping;
-  damping.value = kDamping * unit_factors(UnitSystem::MmTonneS).time;
-  deck.deck.dampings.push_back(damping);
-  deck.end_at(kLongest);
-  DeckRun run(deck.deck, folder, threads, 0.02);
-  const std::vector<int> bodies = spine_bodies(run, draft);
-  const auto level_angles = [&](const State& state) {
-    std::vector<double> out;
-    for (std::size_t i = 0; i + 1 < bodies.size(); ++i)
-      out.push_back(sense *
-                    angle_about(axis, state.bodies[bodies[i]], state.bodies[bodies[i + 1]]));
-    return out;
-  };
-  double work = 0, turned = 0, before_moment = 0;
-  std::vector<double> before(bodies.size() - 1, 0.0), answer;
-  bool is_reached = false;
-  run.run(kLongest, kWindow, [&](const State& state) {
-    if (is_reached || state.time == 0) return;
-    // Of the prescribed speed: the work is the moment times this angle, however the head tilts.
-    const double turn = kRate * (state.time < kRise ? state.time * state.time / (2 * kRise)
-                                                    : state.time - 0.5 * kRise);
-    const Energies& e = state.energies;
-    const double useful = e.external_work - e.damping - e.kinetic;
-    const double now = (useful - work) / std::max(turn - turned, 1e-9);
-    const std::vector<double> angles = level_angles(state);
-    curve.points.emplace_back(turn / kDegree, now);
-    if (now >= moment && state.time > kRise) {
-      const double share = (moment - before_moment) / (now - before_moment);
-      for (std::size_t i = 0; i < angles.size(); ++i)
-        answer.push_back(before[i] + std::clamp(share, 0.0, 1.0) * (angles[i] - before[i]));
-      is_reached = true;
-    }
-    before_moment = now;
-    before = angles;
-    work = useful;
-    turned = turn;
-  });
-  return is_reached ? answer
-                    : std::vector<double>(before.size(), std::numeric_limits<double>::quiet_NaN());
-}
 
 }  // namespace
 
@@ -169,8 +43,8 @@ CaseResult neck_ranges(const CaseContext& context) {
   CaseResult result{
       "neck_ranges",
       "ranges of motion of the ligamentous neck at 1 N m",
-      "occiput turned slowly, torso block held, no muscles and flesh; disc moduli and "
-      "joint gaps were set against these ranges",
+      "occiput turned slowly, torso block held, no muscles and flesh; the toe of annulus fibres, "
+      "facet and joint gaps were set against these ranges",
       {},
       {{"moment", "Moment and angle of the occiput", "angle, deg", "moment, N m", {}}},
       {}};
@@ -179,17 +53,25 @@ CaseResult neck_ranges(const CaseContext& context) {
     for (const double sense : {1.0, -1.0}) {
       // Both sides are mirror images but for the sagittal plane.
       if (m.axis != 1 && sense < 0) break;
-      Series curve{fmt::format("{} {}", m.name, sense > 0 ? "+" : "-"), {}};
-      const std::vector<double> angles = angles_at(
-          draft, m.axis, sense, 1.0,
+      const Turning turning{.part = rigid_skull_part(),
+                            .held = {part::kBlockTorsoUp},
+                            .axis = m.axis,
+                            .sense = sense,
+                            .last_angle = 1.8};
+      const std::vector<MomentSample> samples = turn_slowly(
+          draft, turning,
           context.folder / fmt::format("axis_{}_{}", m.axis, sense > 0 ? "plus" : "minus"),
-          context.threads, curve);
+          context.threads);
+      Series curve{fmt::format("{} {}", m.name, sense > 0 ? "+" : "-"), {}};
+      for (const MomentSample& s : samples) curve.points.emplace_back(s.turned / kDegree, s.moment);
+      std::vector<double> angles = at_moment(samples, 1.0).levels;
+      if (angles.empty()) angles.assign(7, std::numeric_limits<double>::quiet_NaN());
       for (int i = 0; i < 7; ++i) total[i] += (m.axis == 1 ? 1 : 2) * angles[i] / kDegree;
       result.plots.front().series.push_back(curve);
     }
     double sum = 0, sum_mean = 0;
     for (int i = 0; i < 7; ++i) {
-      result.measures.push_back({fmt::format("{} {}", kLevels[i], m.name), "deg", total[i],
+      result.measures.push_back({fmt::format("{} {}", kLevelNames[i], m.name), "deg", total[i],
                                  m.mean[i], m.mean[i] - 2 * m.deviation[i],
                                  m.mean[i] + 2 * m.deviation[i], Confidence::High,
                                  "[panjabi2001]"});
@@ -222,9 +104,13 @@ struct HeadPath {
   std::string note;
 };
 
-HeadPath ride(const Sled& sled, const CaseContext& context) {
+enum class Muscles { Passive, Volunteer };
+
+HeadPath ride(const Sled& sled, Muscles muscles, const CaseContext& context) {
   const generate::HeadNeck neck = reference_neck(context.fidelity);
-  const generate::ModelDraft draft = neck_with_rigid_head(neck);
+  generate::ModelDraft draft = neck_with_rigid_head(neck);
+  add_trunk(draft);
+  if (muscles == Muscles::Volunteer) activate_muscles(draft, volunteer(sled.start));
   DeckCase deck(draft, UnitSystem::MmTonneS);
   Points along, turn;
   double v = 0;
@@ -252,9 +138,10 @@ HeadPath ride(const Sled& sled, const CaseContext& context) {
                       : dof == 3 + sled.roll_axis ? turn
                                                   : rest);
   deck.end_at(sled.end);
-  DeckRun run(deck.deck, context.folder, context.threads, 0.02);
-  const int head = body_named(run, draft.part(rigid_skull_part()).name);
-  const int t1 = body_named(run, draft.part(part::kFirstVertebra + 70).name);
+  DeckRun run(deck.deck, context.folder / (muscles == Muscles::Volunteer ? "volunteer" : "passive"),
+              context.threads, 0.02);
+  const int head = body_of_part(run, draft, rigid_skull_part());
+  const int t1 = body_of_part(run, draft, part_of_level(generate::T1));
   HeadPath path;
   Vec3 start = Vec3::Zero(), before = Vec3::Zero();
   double last = 0;
@@ -290,8 +177,12 @@ std::pair<double, double> extreme(const std::vector<double>& time, const std::ve
   return {best, 1e3 * when};
 }
 
-Plot path_plot(const HeadPath& path, const char* title, int side, int roll) {
-  Plot plot{"head", title, "time, ms", "head against T1, mm and deg", {}};
+Plot path_plot(const HeadPath& path, Muscles muscles, const char* title, int side, int roll) {
+  Plot plot{muscles == Muscles::Passive ? "head_passive" : "head",
+            title,
+            "time, ms",
+            "head against T1, mm and deg",
+            {}};
   Series across{"displacement along the pulse, mm", {}}, down{"vertical, mm", {}},
       angle{"angle, deg", {}};
   for (std::size_t i = 0; i < path.time.size(); ++i) {
@@ -305,75 +196,115 @@ Plot path_plot(const HeadPath& path, const char* title, int side, int roll) {
 
 }  // namespace
 
+namespace {
+
+constexpr const char* kSetup =
+    "head rigid; chest and shoulders as planes under it; muscles once passive, as in cadavers, and "
+    "once with tone and reflex [E] as volunteers have: those the windows belong to";
+
+const char* suffix(Muscles muscles) {
+  return muscles == Muscles::Passive ? ", passive muscles" : "";
+}
+
+/// Passive muscles are set beside the volunteers' windows and decide nothing.
+Confidence of(Muscles muscles, Confidence confidence) {
+  return muscles == Muscles::Passive ? Confidence::Low : confidence;
+}
+
+}  // namespace
+
 // ISO/TR 9790 neck test 1. No T1 trace is at hand: half a sine of 15 g over 60 ms with 6 degrees of
 // roll [E], so the windows are widened by 30 %.
 CaseResult neck_lateral(const CaseContext& context) {
-  const HeadPath path = ride({.axis = 1,
-                              .sense = 1,
-                              .roll_axis = 0,
-                              .roll = 6 * kDegree,
-                              .peak = 15 * kStandardGravity,
-                              .start = 0.040,
-                              .length = 0.060,
-                              .after = -2 * kStandardGravity,
-                              .after_length = 0.060,
-                              .end = 0.2},
-                             context);
-  CaseResult result{
-      "neck_lateral",
-      "head on a passive neck, lateral sled of 7 g",
-      "T1 driven by half a sine of 15 g, 60 ms [E]; windows of the test widened by 30 %",
-      {},
-      {path_plot(path, "Lateral 7 g", 1, 0)},
-      {path.note}};
-  const auto [y, t_y] = extreme(path.time, path.centre, 1);
-  const auto [z, t_z] = extreme(path.time, path.centre, 2);
-  const auto [flexion, t_f] = extreme(path.time, path.turned, 0);
-  const auto [twist, t_t] = extreme(path.time, path.turned, 2);
-  const char* source = "[iso9790] neck test 1; drive [E]";
-  result.measures = {
-      {"lateral displacement of the head", "mm", 1e3 * std::abs(y), 146, 91, 211,
-       Confidence::Medium, source},
-      {"downward displacement of the head", "mm", 1e3 * std::abs(z), 79, 45, 122,
-       Confidence::Medium, source},
-      {"time of the largest excursion", "ms", t_y, 167, 111, 228, Confidence::Medium, source},
-      {"largest lateral angle", "deg", std::abs(flexion) / kDegree, 51, 31, 77, Confidence::Medium,
-       source},
-      {"largest twist", "deg", std::abs(twist) / kDegree, 38, 22, 59, Confidence::Low, source}};
+  CaseResult result{"neck_lateral",
+                    "head on the neck, lateral sled of 7 g",
+                    std::string("T1 driven by half a sine of 15 g, 60 ms [E]; windows of the test "
+                                "widened by 30 %; ") +
+                        kSetup,
+                    {},
+                    {},
+                    {}};
+  for (const Muscles muscles : {Muscles::Volunteer, Muscles::Passive}) {
+    const HeadPath path = ride({.axis = 1,
+                                .sense = 1,
+                                .roll_axis = 0,
+                                .roll = 6 * kDegree,
+                                .peak = 15 * kStandardGravity,
+                                .start = 0.040,
+                                .length = 0.060,
+                                .after = -2 * kStandardGravity,
+                                .after_length = 0.060,
+                                .end = 0.2},
+                               muscles, context);
+    const auto [y, t_y] = extreme(path.time, path.centre, 1);
+    const auto [z, t_z] = extreme(path.time, path.centre, 2);
+    const auto [flexion, t_f] = extreme(path.time, path.turned, 0);
+    const auto [twist, t_t] = extreme(path.time, path.turned, 2);
+    const auto add = [&](const char* quantity, const char* unit, double ours, double reference,
+                         double low, double high, Confidence confidence) {
+      result.measures.push_back({std::string(quantity) + suffix(muscles), unit, ours, reference,
+                                 low, high, of(muscles, confidence),
+                                 "[iso9790] neck test 1; drive [E]"});
+    };
+    add("lateral displacement of the head", "mm", 1e3 * std::abs(y), 146, 91, 211,
+        Confidence::Medium);
+    add("downward displacement of the head", "mm", 1e3 * std::abs(z), 79, 45, 122,
+        Confidence::Medium);
+    add("time of the largest excursion", "ms", t_y, 167, 111, 228, Confidence::Medium);
+    add("largest lateral angle", "deg", std::abs(flexion) / kDegree, 51, 31, 77,
+        Confidence::Medium);
+    add("largest twist", "deg", std::abs(twist) / kDegree, 38, 22, 59, Confidence::Low);
+    result.plots.push_back(path_plot(path, muscles, "Lateral 7 g", 1, 0));
+    result.notes.push_back(path.note + suffix(muscles));
+  }
   return result;
 }
 
 CaseResult neck_frontal(const CaseContext& context) {
-  const HeadPath path = ride({.axis = 0,
-                              .sense = -1,
-                              .roll_axis = 1,
-                              .roll = 22 * kDegree,
-                              .peak = 28 * kStandardGravity,
-                              .start = 0.030,
-                              .length = 0.097,
-                              .after = 0,
-                              .after_length = 0,
-                              .end = 0.2},
-                             context);
   CaseResult result{"neck_frontal",
-                    "head on a passive neck, frontal sled of 15 g",
-                    "T1 driven by half a sine of 28 g, 97 ms, with 22 degrees of rotation [E]",
+                    "head on the neck, frontal sled of 15 g",
+                    std::string("T1 driven by half a sine of 28 g, 97 ms, with 22 degrees of "
+                                "rotation [E]; ") +
+                        kSetup,
                     {},
-                    {path_plot(path, "Frontal 15 g", 0, 1)},
-                    {path.note}};
-  double x = 0;  // forwards only: past a right angle the head swings back under the neck
-  for (const Vec3& d : path.centre) x = std::max(x, d.x());
-  const auto [z, t_z] = extreme(path.time, path.centre, 2);
-  const auto [flexion, t_f] = extreme(path.time, path.turned, 1);
-  const double peak =
-      *std::max_element(path.acceleration.begin(), path.acceleration.end()) / kStandardGravity;
-  const char* source = "[thunnissen1995]; drive [E]";
-  result.measures = {
-      {"forward displacement of the head", "mm", 1e3 * x, 180, 160, 200, Confidence::Low, source},
-      {"downward displacement of the head", "mm", -1e3 * z, 145, 120, 170, Confidence::Low, source},
-      {"largest flexion", "deg", flexion / kDegree, 87, 75, 100, Confidence::Low, source},
-      {"time of it", "ms", t_f, 150, 140, 160, Confidence::Low, source},
-      {"peak acceleration of the head", "g", peak, 30, 25, 35, Confidence::Low, source}};
+                    {},
+                    {}};
+  for (const Muscles muscles : {Muscles::Volunteer, Muscles::Passive}) {
+    const HeadPath path = ride({.axis = 0,
+                                .sense = -1,
+                                .roll_axis = 1,
+                                .roll = 22 * kDegree,
+                                .peak = 28 * kStandardGravity,
+                                .start = 0.030,
+                                .length = 0.097,
+                                .after = 0,
+                                .after_length = 0,
+                                .end = 0.2},
+                               muscles, context);
+    double x = 0;  // forwards only: past a right angle the head swings back under the neck
+    for (const Vec3& d : path.centre) x = std::max(x, d.x());
+    const auto [z, t_z] = extreme(path.time, path.centre, 2);
+    double flexion = 0, t_f = 0;
+    for (std::size_t i = 0; i < path.time.size(); ++i)
+      if (path.turned[i].y() > flexion) {
+        flexion = path.turned[i].y();
+        t_f = 1e3 * path.time[i];
+      }
+    const double peak =
+        *std::max_element(path.acceleration.begin(), path.acceleration.end()) / kStandardGravity;
+    const auto add = [&](const char* quantity, const char* unit, double ours, double reference,
+                         double low, double high) {
+      result.measures.push_back({std::string(quantity) + suffix(muscles), unit, ours, reference,
+                                 low, high, Confidence::Low, "[thunnissen1995]; drive [E]"});
+    };
+    add("forward displacement of the head", "mm", 1e3 * x, 180, 160, 200);
+    add("downward displacement of the head", "mm", -1e3 * z, 145, 120, 170);
+    add("largest flexion", "deg", flexion / kDegree, 87, 75, 100);
+    add("time of it", "ms", t_f, 150, 140, 160);
+    add("peak acceleration of the head", "g", peak, 30, 25, 35);
+    result.plots.push_back(path_plot(path, muscles, "Frontal 15 g", 0, 1));
+    result.notes.push_back(path.note + suffix(muscles));
+  }
   return result;
 }
 

@@ -22,6 +22,8 @@ std::vector<Case> cases() {
       {"head", "head_drops", "acceleration against drop height", head_drops},
       {"head", "mesh_refinement", "one drop at growing fineness", mesh_refinement},
       {"neck", "neck_ranges", "angles of each level at 1 N m", neck_ranges},
+      {"neck", "neck_levels", "moment and angle of each level", neck_levels},
+      {"neck", "neck_bending", "moment and angle of the whole neck", neck_bending},
       {"neck", "neck_lateral", "lateral sled of 7 g", neck_lateral},
       {"neck", "neck_frontal", "frontal sled of 15 g", neck_frontal},
       {"windshield", "plate_impedance", "closed form: mass on a plate", plate_impedance},

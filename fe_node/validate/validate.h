@@ -48,6 +48,8 @@ CaseResult nahum_37(const CaseContext& context);
 CaseResult head_drops(const CaseContext& context);
 CaseResult skull_stiffness(const CaseContext& context);
 CaseResult mesh_refinement(const CaseContext& context);
+CaseResult neck_levels(const CaseContext& context);
+CaseResult neck_bending(const CaseContext& context);
 CaseResult neck_ranges(const CaseContext& context);
 CaseResult neck_lateral(const CaseContext& context);
 CaseResult neck_frontal(const CaseContext& context);

@@ -1,14 +1,12 @@
-// One-point shells with points through the thickness: the Belytschko-Tsay quadrilateral and a C0
-// triangle, and their membranes (no bending, nodes without rotations). Co-rotational, updated
-// geometry, any finite motion; theory in shell_kernel.h.
-//
-// Hourglass control of the quadrilateral after [belytschko1984]: stiffness form k_m = r E t A b.b/8
-// (membrane), k_b = r E t^3 A b.b/192 (bending), k_w = r kappa G t^3 b.b/12 (warping), or the
-// viscous form c_m = q rho t sqrt(A) c/4, c_b = c_m t^2/12, c_w = c_m t^2 b.b/12.
+// Shells with points through the thickness: quadrilaterals of one point in the plane
+// (Belytschko-Tsay, shell_kernel.h) or of 2 x 2 (shell_full_kernel.h), the C0 triangle, and their
+// membranes (no bending, nodes without rotations). Co-rotational, updated geometry, any finite
+// motion. The section says which.
 //
 // Rotary inertia per mass is (A + t^2)/12 instead of t^2/12 alone, so that the transverse shear
-// does not set the stable step; it changes only waves shorter than the element. No drilling
-// stiffness: an explicit step needs none.
+// does not set the stable step; it changes only waves shorter than the element. One-point shells
+// have no drilling stiffness (an explicit step needs none), the others a trace of it
+// (shell_full.h).
 #pragma once
 
 #include <memory>

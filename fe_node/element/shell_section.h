@@ -28,6 +28,12 @@ enum class ShellTheory {
 /// Does the thickness follow the normal strain, or stay as given?
 enum class ShellThinning { Fixed, FollowsStrain };
 
+/// Points of a quadrilateral in its plane; a triangle has one.
+enum class ShellIntegration {
+  OnePoint,  ///< Belytschko-Tsay, with hourglass control
+  Full       ///< 2 x 2, needs none
+};
+
 struct ShellPoint {
   double position = 0;
   double weight = 1;
@@ -42,6 +48,7 @@ struct ShellSection {
   double thickness = 0;  ///< m
   ShellTheory theory = ShellTheory::Bending;
   ShellThinning thinning = ShellThinning::Fixed;
+  ShellIntegration integration = ShellIntegration::OnePoint;
   double shear_factor = 5.0 / 6.0;
   std::vector<ShellLayer> layers;  ///< from the bottom
 

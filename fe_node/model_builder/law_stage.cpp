@@ -87,9 +87,10 @@ std::optional<ShellLaw> shell_law(BuildContext& c, const Material& material) {
 
 bool is_membrane(int formulation) { return formulation == 5 || formulation == 9; }
 
-}  // namespace
+/// 16, and the selective-reduced 6 and 7 [hallquist2006, 11].
+bool is_full(int formulation) { return formulation == 6 || formulation == 7 || formulation == 16; }
 
-std::optional<ShellSection> shell_section(BuildContext& c, const Part& part) {
+std::optional<ShellSection> layered_section(BuildContext& c, const Part& part) {
   const std::string who = fmt::format("*PART {}", part.id.value);
   if (part.composite) {
     std::vector<Ply> plies;
@@ -123,9 +124,22 @@ std::optional<ShellSection> shell_section(BuildContext& c, const Part& part) {
                             ? membrane_section(*law, thickness)
                             : uniform_section(*law, thickness, points, rule);
   if (!ruled->empty() && !is_membrane(card->formulation)) result.layers[0].points = *ruled;
-  if (card->formulation != 2 && !is_membrane(card->formulation))
-    c.note(fmt::format("part {}: shell formulation {} is computed as Belytschko-Tsay (2)",
-                       part.id.value, card->formulation));
+  return result;
+}
+
+}  // namespace
+
+std::optional<ShellSection> shell_section(BuildContext& c, const Part& part) {
+  std::optional<ShellSection> result = layered_section(c, part);
+  if (!result) return result;
+  const int formulation = part.composite
+                              ? part.composite->formulation
+                              : std::get<SectionShell>(c.section_of(part)->law).formulation;
+  if (is_full(formulation)) result->integration = ShellIntegration::Full;
+  if (formulation != 2 && formulation != 16 && !is_membrane(formulation))
+    c.note(fmt::format(
+        "part {}: shell formulation {} is computed as {}", part.id.value, formulation,
+        is_full(formulation) ? "the fully integrated shell (16)" : "Belytschko-Tsay (2)"));
   return result;
 }
 

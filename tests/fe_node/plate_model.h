@@ -3,6 +3,8 @@
 
 #include <functional>
 
+#include <Eigen/Dense>
+
 #include "fe_node/element/shell.h"
 #include "fe_node/model.h"
 
@@ -104,6 +106,27 @@ inline NodalLoads loads_after(const Model& model, const PlateMotion& motion) {
 inline PlateMotion still(const Model& model) {
   const std::size_t count = model.mesh.position.size();
   return {std::vector<Vec3>(count, Vec3::Zero()), std::vector<Vec3>(count, Vec3::Zero())};
+}
+
+/// By differences of the loads; per node three displacements, then three rotations. The strains are
+/// linear in the step, so that it may be small enough to leave the geometry as it is.
+inline Eigen::MatrixXd stiffness_matrix(const Model& model) {
+  constexpr double h = 1e-12;
+  const int size = 6 * model.mesh.node_count();
+  Eigen::MatrixXd K(size, size);
+  for (int column = 0; column < size; ++column) {
+    PlateMotion motion = still(model);
+    (column % 6 < 3 ? motion.displacement : motion.rotation)[column / 6][column % 3] = h;
+    const NodalLoads loads = loads_after(model, motion);
+    for (int row = 0; row < size; ++row)
+      K(row, column) = -(row % 6 < 3 ? loads.force : loads.moment)[row / 6][row % 3] / h;
+  }
+  return K;
+}
+
+inline ShellSection fully_integrated(ShellSection section) {
+  section.integration = ShellIntegration::Full;
+  return section;
 }
 
 }  // namespace crosswalk::fe

@@ -21,14 +21,26 @@ Vec3 doubly_curved(const Vec3& p) {
   return {p.x(), p.y(), 0.2 * p.x() * p.y() - 0.1 * p.x() * p.x()};
 }
 
-class EveryShell : public testing::TestWithParam<ElementKind> {
+struct ShellForm {
+  const char* name;
+  ElementKind kind;
+  ShellIntegration integration;
+};
+
+class EveryShell : public testing::TestWithParam<ShellForm> {
  protected:
-  Plate plate(int nx, int ny) const { return {nx, ny, 1, 1, GetParam()}; }
+  Plate plate(int nx, int ny) const { return {nx, ny, 1, 1, GetParam().kind}; }
+  bool is_full() const { return GetParam().integration == ShellIntegration::Full; }
+  ShellSection glass(double thickness) const {
+    ShellSection section = uniform_section(kGlass, thickness, 3);
+    section.integration = GetParam().integration;
+    return section;
+  }
 };
 
 TEST_P(EveryShell, RigidMotionGivesNoLoad) {
   const Plate shape = plate(4, 4);
-  Model model = plate_model(shape, uniform_section(kGlass, kThickness, 3), {}, doubly_curved);
+  Model model = plate_model(shape, glass(kThickness), {}, doubly_curved);
   const double per_strain = kYoungs * kThickness;  // N/m
   PlateMotion motion = still(model);
   // The spin that belongs to a chord of the rotation is 2 tan(a/2), third order away from a.
@@ -45,7 +57,7 @@ TEST_P(EveryShell, RigidMotionGivesNoLoad) {
 
 // Twice the step takes four times the mass; the part's own mass is told apart from what was added.
 TEST_P(EveryShell, MassScalingIsReportedPerPart) {
-  const ShellSection section = uniform_section(kGlass, kThickness, 3);
+  const ShellSection section = glass(kThickness);
   Model plain = plate_model(plate(4, 4), section);
   plain.finish();
   ElementControls controls;
@@ -57,7 +69,7 @@ TEST_P(EveryShell, MassScalingIsReportedPerPart) {
   EXPECT_NEAR(scaled.part_mass[0], own, 1e-9 * own);
   EXPECT_NEAR(scaled.total_mass() - scaled.added_mass[0], own, 1e-9 * own);
   // every quadrilateral is alike; of the triangles those with a longer step need less
-  if (GetParam() == ElementKind::Quad4)
+  if (GetParam().kind == ElementKind::Quad4)
     EXPECT_NEAR(scaled.added_mass[0], 3 * own, 1e-9 * own);
   else
     EXPECT_GT(scaled.added_mass[0], own);
@@ -65,7 +77,7 @@ TEST_P(EveryShell, MassScalingIsReportedPerPart) {
 
 TEST_P(EveryShell, MembranePatchCarriesConstantStress) {
   const Plate shape = plate(4, 4);
-  Model model = plate_model(shape, uniform_section(kGlass, kThickness, 3), {}, skewed);
+  Model model = plate_model(shape, glass(kThickness), {}, skewed);
   PlateMotion motion = still(model);
   Mat3 L = Mat3::Zero();
   L(0, 0) = 1e-6, L(0, 1) = 2e-6, L(1, 0) = 0.5e-6, L(1, 1) = -0.7e-6;
@@ -83,11 +95,12 @@ TEST_P(EveryShell, MembranePatchCarriesConstantStress) {
   EXPECT_NEAR(edge, nxx, 1e-5 * nxx);
 }
 
-// On parallelograms; the one-point quadrilateral does not hold this patch on other shapes.
+// The one-point quadrilateral holds this patch on parallelograms alone.
 TEST_P(EveryShell, BendingPatchCarriesConstantMoment) {
   const Plate shape = plate(4, 4);
-  Model model = plate_model(shape, uniform_section(kGlass, kThickness, 3), {},
-                            [](const Vec3& p) { return Vec3(p.x() + 0.3 * p.y(), p.y(), 0); });
+  Model model = plate_model(shape, glass(kThickness), {}, [&](const Vec3& p) -> Vec3 {
+    return is_full() ? skewed(p) : Vec3(p.x() + 0.3 * p.y(), p.y(), 0);
+  });
   PlateMotion motion = still(model);
   // w = k y^2 / 2 gives theta_x = k y: the moment -D k acts on the edges and no shear anywhere.
   const double k = 1e-6;
@@ -109,7 +122,7 @@ TEST_P(EveryShell, BendingPatchCarriesConstantMoment) {
 }
 
 TEST_P(EveryShell, LoadsOfAnyMotionHaveNoResultantAndNoMoment) {
-  Model model = plate_model(plate(3, 3), uniform_section(kGlass, kThickness, 3), {}, doubly_curved);
+  Model model = plate_model(plate(3, 3), glass(kThickness), {}, doubly_curved);
   PlateMotion motion = still(model);
   for (int n = 0; n < model.mesh.node_count(); ++n) {
     motion.displacement[n] = 1e-3 * Vec3(std::sin(7 * n), std::sin(11 * n), std::sin(13 * n));
@@ -128,40 +141,93 @@ TEST_P(EveryShell, LoadsOfAnyMotionHaveNoResultantAndNoMoment) {
   EXPECT_LT(moment.norm(), 1e-12 * scale);  // the plate is 1 m
 }
 
+/// The largest stable step of the assembled stiffness and mass.
+double exact_stable_step(const Model& model) {
+  const Eigen::MatrixXd K = stiffness_matrix(model);
+  EXPECT_LT((K - K.transpose()).norm(), 1e-6 * K.norm());
+  Eigen::VectorXd mass(K.rows());
+  for (int i = 0; i < K.rows(); ++i) mass[i] = (i % 6 < 3 ? model.mass : model.inertia)[i / 6];
+  const Eigen::VectorXd inverse_root = mass.cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd A =
+      inverse_root.asDiagonal() * (0.5 * (K + K.transpose())) * inverse_root.asDiagonal();
+  return 2 / std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues().maxCoeff());
+}
+
 // The element's own estimate against the exact largest frequency of its stiffness and mass.
 TEST_P(EveryShell, StableStepIsBelowTheExactOneAndNotWasteful) {
   for (const double thickness : {0.002, 0.1, 0.4}) {
-    Plate shape = plate(1, 1);
-    Model model = plate_model(shape, uniform_section(kGlass, thickness, 3), {}, [](const Vec3& p) {
+    Model model = plate_model(plate(1, 1), glass(thickness), {}, [](const Vec3& p) {
       return Vec3(p.x() + 0.2 * p.y(), 0.7 * p.y(), 0);
     });
     model.finish();
-    const int nodes = model.mesh.node_count(), size = 6 * nodes;
-    Eigen::MatrixXd K(size, size);
-    Eigen::VectorXd mass(size);
-    for (int column = 0; column < size; ++column) {
-      PlateMotion motion = still(model);
-      const double h = 1e-9;
-      (column % 6 < 3 ? motion.displacement : motion.rotation)[column / 6][column % 3] = h;
-      const NodalLoads loads = loads_after(model, motion);
-      for (int row = 0; row < size; ++row)
-        K(row, column) = -(row % 6 < 3 ? loads.force : loads.moment)[row / 6][row % 3] / h;
-      mass[column] = column % 6 < 3 ? model.mass[column / 6] : model.inertia[column / 6];
-    }
-    EXPECT_LT((K - K.transpose()).norm(), 1e-6 * K.norm());
-    const Eigen::VectorXd inverse_root = mass.cwiseSqrt().cwiseInverse();
-    const Eigen::MatrixXd A =
-        inverse_root.asDiagonal() * (0.5 * (K + K.transpose())) * inverse_root.asDiagonal();
-    const double exact =
-        2 / std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues().maxCoeff());
-    const double estimate = initial_stable_step(model);
+    const double exact = exact_stable_step(model), estimate = initial_stable_step(model);
     EXPECT_LE(estimate, exact * (1 + 1e-6)) << thickness;
     EXPECT_GE(estimate, 0.6 * exact) << thickness;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shell, EveryShell, testing::Values(ElementKind::Quad4, ElementKind::Tri3),
-                         [](const auto& item) { return std::string(name(item.param)); });
+INSTANTIATE_TEST_SUITE_P(
+    Shell, EveryShell,
+    testing::Values(ShellForm{"Quad4", ElementKind::Quad4, ShellIntegration::OnePoint},
+                    ShellForm{"FullQuad4", ElementKind::Quad4, ShellIntegration::Full},
+                    ShellForm{"Tri3", ElementKind::Tri3, ShellIntegration::OnePoint}),
+    [](const auto& item) { return std::string(item.param.name); });
+
+/// Trapezia, kites and warped squares: a corner of the unit square moved about.
+const Vec3 kMovedCorners[] = {{0.3, 0, 0},      {0, -0.4, 0}, {-0.3, -0.3, 0}, {0.8, 0.5, 0},
+                              {-0.2, 0.1, 0.2}, {0, 0, 0.5},  {-0.4, 0.1, 0},  {0.3, 0.3, -0.3}};
+
+Model distorted_element(const Vec3& moved, double thickness) {
+  return plate_model({1, 1}, fully_integrated(uniform_section(kGlass, thickness, 3)), {},
+                     [&](const Vec3& p) -> Vec3 { return p.x() * p.y() > 0.5 ? p + moved : p; });
+}
+
+TEST(FullShell, StableStepHoldsForDistortedAndWarpedElements) {
+  for (const Vec3& moved : kMovedCorners)
+    for (const double thickness : {0.002, 0.1, 0.4}) {
+      Model model = distorted_element(moved, thickness);
+      model.finish();
+      const double exact = exact_stable_step(model), estimate = initial_stable_step(model);
+      EXPECT_LE(estimate, exact * (1 + 1e-6)) << moved.transpose() << ", t " << thickness;
+      EXPECT_GE(estimate, 0.3 * exact) << moved.transpose() << ", t " << thickness;
+    }
+}
+
+// Six rigid motions and nothing else. The softest mode is a rotation about the normal, 1e-4 of the
+// bending stiffness.
+TEST(FullShell, OnlyRigidMotionsAreWithoutEnergy) {
+  constexpr double t = 0.4;  // thick enough that the softest modes stand clear of round-off
+  for (const Vec3& moved : kMovedCorners) {
+    const Eigen::MatrixXd K = stiffness_matrix(distorted_element(moved, t));
+    const Eigen::VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (K + K.transpose())).eigenvalues();
+    for (int i = 0; i < 6; ++i) EXPECT_LT(std::abs(values[i]), 1e-9 * values[23]);
+    EXPECT_GT(values[6], 1e-7 * values[23]) << moved.transpose();
+    // bending, shear and membrane
+    EXPECT_GT(values[10], 1e-4 * values[23]) << moved.transpose();
+  }
+}
+
+// One side drawn beyond the failure strain takes the two points beside it; the element holds on
+// with the others, half the force, until they fail as well.
+TEST(FullShell, FailsOnceMostOfItsPointsHave) {
+  ShellPlastic steel{7850, 210e9, 0.3, {}, 0, 0.02};
+  const double strain[] = {0, 1}, stress[] = {200e6, 200e6};
+  steel.yield = YieldStress(HardeningCurve(strain, stress));
+  const auto pull = [&](double lower, double upper) {
+    const Plate square{1, 1};
+    const Model model = plate_model(square, fully_integrated(uniform_section(steel, 1e-3, 2)));
+    PlateMotion motion = still(model);
+    motion.displacement[square.node(1, 0)].x() = lower;
+    motion.displacement[square.node(1, 1)].x() = upper;
+    const NodalLoads loads = loads_after(model, motion);
+    return -loads.force[square.node(1, 0)].x() - loads.force[square.node(1, 1)].x();
+  };
+  // at the points beside a side: 0.79 of its strain and 0.21 of the other's
+  const double whole = pull(0.008, 0.016);
+  EXPECT_NEAR(pull(0.008, 0.032), 0.5 * whole, 0.05 * whole);
+  EXPECT_EQ(pull(0.032, 0.032), 0);
+}
 
 TEST(ShellSection, RulesIntegrateBendingExactly) {
   auto second_moment = [](const ShellSection& section) {

@@ -1,0 +1,74 @@
+// What the block of shells (shell.cpp) asks of an element, one-point (shell_one_point.h) or fully
+// integrated (shell_full.h): its answer to the motion of one step and a bound of its stiffness.
+#pragma once
+
+#include "fe_node/element/element_controls.h"
+#include "fe_node/element/section_integral.h"
+
+namespace crosswalk::fe {
+
+/// A section with the numerical controls and the moduli that bound its stiffness.
+struct ShellMatter {
+  ShellSection section;
+  ElementControls controls;
+  double density = 0;              ///< kg/m3, mean
+  double youngs = 0, poisson = 0;  ///< of the stiffest layer
+  double mean_youngs = 0;          ///< over the thickness
+
+  ShellMatter(const ShellSection& section, const ElementControls& controls);
+  bool is_bending() const { return section.theory == ShellTheory::Bending; }
+};
+
+/// The motion of a step: geometry at its middle and end, velocities and spins in the local frame of
+/// the middle.
+template <int kCorners>
+struct ShellMotion {
+  ShellShape<kCorners> middle, end;
+  Lanes3 v[kCorners], spin[kCorners];
+  Lanes thickness, mass;
+  double dt = 0;
+};
+
+/// Loads of the corners in local axes of the end of the step.
+template <int kCorners>
+struct ShellAnswer {
+  Lanes3 force[kCorners], moment[kCorners];
+  Lanes work = Lanes::Zero();        ///< J, of this step on the material
+  Lanes thinning = Lanes::Zero();    ///< mean normal strain increment
+  Lanes alive = Lanes::Ones();       ///< 0 when the element has failed
+  Lanes stored = Lanes::Zero();      ///< J, change of the energy of stiffness hourglass control
+  Lanes dissipated = Lanes::Zero();  ///< J, by hourglass control in this step
+};
+
+/// Bounds of omega^2 m / (n A t), n corners: the membrane's lambda' tr g + 2 mu g_max with lambda'
+/// = E nu / (1 - nu^2); the same times t^2 / (12 gyration) for bending; and kappa G times the
+/// larger eigenvalue of the shear rows for shear.
+struct ShellBounds {
+  Lanes membrane, bending, shear;
+};
+
+template <int kCorners>
+ShellBounds shell_bounds(const ShellMatter& matter, const ShellShape<kCorners>& shape,
+                         const Lanes& thickness, const Lanes& gyration) {
+  Lanes largest, trace;
+  gradient_metric(shape, largest, trace);
+  const double E = matter.youngs, nu = matter.poisson;
+  const double two_mu = E / (1 + nu), lambda = E * nu / (1 - nu * nu);
+  ShellBounds bounds;
+  bounds.membrane = lambda * trace + two_mu * largest;
+  bounds.bending = bounds.shear = Lanes::Zero();
+  if (!matter.is_bending()) return bounds;
+  bounds.bending = bounds.membrane * thickness * thickness / (12.0 * gyration);
+  bounds.shear = (0.5 * two_mu * matter.section.shear_factor) * shear_metric(shape, gyration);
+  return bounds;
+}
+
+inline SectionVector increment_of(SectionVector rate, double dt, bool is_bending) {
+  for (Lanes* r :
+       {&rate.xx, &rate.yy, &rate.xy, &rate.kxx, &rate.kyy, &rate.kxy, &rate.yz, &rate.zx})
+    *r *= dt;
+  if (!is_bending) rate.yz = rate.zx = Lanes::Zero();
+  return rate;
+}
+
+}  // namespace crosswalk::fe

@@ -134,9 +134,14 @@ class Export {
     return section.id;
   }
 
+  static int formulation(ShellForm form) {
+    if (form == ShellForm::Membrane) return 5;
+    return form == ShellForm::Full ? 16 : 2;
+  }
+
   SectionShell shell_section(const ShellSection& shell) {
-    SectionShell law{.formulation = shell.is_membrane ? 5 : 2};
-    law.points = shell.is_membrane ? 1 : shell.points;
+    SectionShell law{.formulation = formulation(shell.form)};
+    law.points = shell.form == ShellForm::Membrane ? 1 : shell.points;
     law.shear_factor = 5.0 / 6.0;
     law.thickness.fill(shell.thickness / units_.length);
     if (shell.rule.empty()) return law;

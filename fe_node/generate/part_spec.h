@@ -14,10 +14,11 @@ namespace crosswalk::fe::generate {
 struct SolidSection {
   double hourglass = 0.05;  ///< coefficient of the stiffness form, on the shear modulus
 };
+enum class ShellForm { OnePoint, Full, Membrane };  ///< ELFORM 2, 16 and 5
 struct ShellSection {
   double thickness = 0;  ///< m
   int points = 5;
-  bool is_membrane = false;
+  ShellForm form = ShellForm::OnePoint;
   /// Position (-1 bottom .. 1 top) and weight of own points through the thickness; empty: Gauss.
   std::vector<std::pair<double, double>> rule;
 };

@@ -28,7 +28,7 @@ PartSpec membrane(int id, const char* name, double density, double youngs, doubl
           .name = name,
           .density = density,
           .law = mat::Elastic{.youngs = youngs, .poisson = 0.45},
-          .section = ShellSection{.thickness = thickness, .is_membrane = true},
+          .section = ShellSection{.thickness = thickness, .form = ShellForm::Membrane},
           .source = source,
           .grade = Grade::Literature};
 }

@@ -57,7 +57,8 @@ PartSpec pane(const WindshieldSpec& spec) {
   // Two Gauss points in each glass ply, one in the interlayer.
   const double middle = (glass + pvb) / total, reach = glass / total / std::sqrt(3.0);
   const double weight = 0.5 * glass / total;
-  ShellSection section{.thickness = total, .points = 5};
+  // Cracked cells of one point in the plane zigzag without resistance.
+  ShellSection section{.thickness = total, .points = 5, .form = ShellForm::Full};
   section.rule = {{-middle - reach, weight},
                   {-middle + reach, weight},
                   {0, pvb / total},

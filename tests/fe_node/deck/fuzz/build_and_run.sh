@@ -21,8 +21,9 @@ for source in "$root"/tests/fe_node/deck/fuzz/deck_fuzzer.cpp "$root"/fe_node/de
   "$root"/fe_node/model_builder/*.cpp "$root"/fe_node/mesh/*.cpp "$root"/fe_node/material/*.cpp \
   "$root"/fe_node/element/*.cpp "$root"/fe_node/contact/*.cpp "$root"/fe_node/constraint/*.cpp \
   "$root"/fe_node/model.cpp "$root"/fe_node/state.cpp "$root"/fe_node/solver.cpp \
-  "$root"/fe_node/energy.cpp \
-  "$root"/common/error.cpp "$root"/common/spatial.cpp "$root"/common/curve.cpp; do
+  "$root"/fe_node/element_forces.cpp "$root"/fe_node/force_tiles.cpp \
+  "$root"/fe_node/guided_body.cpp "$root"/fe_node/sleeper.cpp "$root"/fe_node/energy.cpp \
+  "$root"/common/error.cpp "$root"/common/spatial.cpp "$root"/common/curve.cpp "$root"/common/rigid_fit.cpp; do
   compile "$source" &
   running=$((running + 1))
   [ $((running % ${JOBS:-2})) -ne 0 ] || wait

@@ -19,7 +19,7 @@ enum NodeSlot {
   kTouches,
   kLastFacet,
   kLastDistance,
-  kNodeSlots
+  kNodeSlots  ///< behind them those of BreakingTies, where there are ties
 };
 /// What a near node leaves for the serial sum of a step.
 enum ResultSlot {
@@ -46,16 +46,21 @@ struct Touch {
 
 class PenaltyContact final : public ContactInterface {
  public:
-  PenaltyContact(std::string name, std::vector<ContactPass> passes,
-                 const PenaltySettings& settings);
+  /// `ties`: of the nodes of the first pass.
+  PenaltyContact(std::string name, std::vector<ContactPass> passes, const PenaltySettings& settings,
+                 std::optional<BreakingTies> ties = std::nullopt);
   void initialise(ContactHistory& history, const ContactContext& context) const override;
   int max_nodal_loads() const override { return 5 * candidates_.node_entries(); }
   ContactReport forces(const ContactContext& context, ContactHistory& history,
                        ContactLoads& loads) const override;
 
  private:
+  int slots() const { return kNodeSlots + (ties_ ? static_cast<int>(BreakingTies::kSlots) : 0); }
+  bool hold(const NearNode& near, const ContactContext& context, double* memory,
+            double* result) const;
+  /// `tied`: what BreakingTies keeps, of the first node.
   void solve_near(int pass, const NearNode& near, const ContactContext& context, double travel,
-                  double* due_candidates, double* memory, double* result) const;
+                  const double* tied, double* due_candidates, double* memory, double* result) const;
   Touch nearest(int pass, const NearNode& near, const ContactContext& context, const double* memory,
                 double travel, double* due_candidates) const;
   PairLaw law_of(const ContactNode& node, const ContactFacet& facet, const ContactContext& context,
@@ -63,6 +68,7 @@ class PenaltyContact final : public ContactInterface {
   void add(int pass, int node, const double* result, ContactReport& report,
            ContactLoads& loads) const;
 
+  std::optional<BreakingTies> ties_;
   ContactCandidates candidates_;
   PenaltySettings settings_;
 };
@@ -85,21 +91,27 @@ std::vector<ContactPass> scaled(std::vector<ContactPass> passes, double thicknes
 }
 
 PenaltyContact::PenaltyContact(std::string name, std::vector<ContactPass> passes,
-                               const PenaltySettings& settings)
+                               const PenaltySettings& settings, std::optional<BreakingTies> ties)
     : ContactInterface(std::move(name)),
-      candidates_(scaled(std::move(passes), settings.thickness_scale), kNodeSlots, kResultSlots),
+      ties_(std::move(ties)),
+      candidates_(scaled(std::move(passes), settings.thickness_scale), slots(), kResultSlots),
       settings_(settings) {
   CW_ASSERT(settings_.nominal_step > 0);
 }
 
 void PenaltyContact::initialise(ContactHistory& history, const ContactContext& context) const {
   candidates_.initialise(history, context, settings_.search_margin);
+  if (ties_) {
+    const ContactCandidates::View view = candidates_.view(history, 0);
+    ties_->tie(candidates_.passes()[0], view.list, context.nodes, view.memory + kNodeSlots,
+               slots());
+  }
   if (settings_.initial != InitialPenetration::Accepted) return;
   for (int p = 0; p < static_cast<int>(candidates_.passes().size()); ++p) {
     const ContactCandidates::View view = candidates_.view(history, p);
     for (int i = 0; i < view.list.count(); ++i) {
       const NearNode near = view.list[i];
-      double* memory = view.memory + kNodeSlots * near.node;
+      double* memory = view.memory + slots() * near.node;
       const Touch touch =
           nearest(p, near, context, memory, 0, view.due_candidates + view.list.first_candidate(i));
       if (touch.facet && touch.penetration > 0) memory[kAllowance] = touch.penetration;
@@ -196,13 +208,39 @@ PairLaw PenaltyContact::law_of(const ContactNode& node, const ContactFacet& face
   return law;
 }
 
+/// A tied node: true, and its force unless the tie has just broken.
+bool PenaltyContact::hold(const NearNode& near, const ContactContext& context, double* memory,
+                          double* result) const {
+  double* slots_of_tie = memory + kNodeSlots;
+  if (slots_of_tie[BreakingTies::kTied] == 0) return false;
+  const BreakingTies::Answer answer =
+      ties_->hold(candidates_.passes()[0], near.node, context, slots_of_tie);
+  result[kFrictionLoss] = answer.lost;
+  if (!answer.holds) return true;
+  result[kFacet] = answer.facet;
+  Eigen::Map<Vec3>(result + kOnNode) = answer.forces.on_node;
+  for (int i = 0; i < 4; ++i)
+    Eigen::Map<Vec3>(result + kOnCorner + 3 * i) = answer.forces.on_corner[i];
+  result[kStored] = answer.stored;
+  result[kDampingLoss] = result[kPenetration] = 0;
+  result[kOmega2] = answer.omega2;
+  return true;
+}
+
 void PenaltyContact::solve_near(int pass_index, const NearNode& near, const ContactContext& context,
-                                double travel, double* due_candidates, double* memory,
-                                double* result) const {
+                                double travel, const double* tied, double* due_candidates,
+                                double* memory, double* result) const {
   const ContactPass& pass = candidates_.passes()[pass_index];
   result[kFacet] = -1;
   result[kFrictionLoss] = 0;
+  if (tied != nullptr && pass_index == 0 && hold(near, context, memory, result)) {
+    due_candidates[0] = 0;  // again in every step
+    return;
+  }
   const Touch t = nearest(pass_index, near, context, memory, travel, due_candidates);
+  if (tied != nullptr && pass_index == 1 && t.facet != nullptr &&
+      ties_->hold_facet(t.index, tied, slots()))
+    return;
   if (t.facet == nullptr) memory[kAllowance] = 0;
   const double allowance = t.facet ? std::min(memory[kAllowance], t.penetration) : 0;
   const double penetration = t.facet ? t.penetration - allowance : 0;
@@ -274,6 +312,7 @@ ContactReport PenaltyContact::forces(const ContactContext& context, ContactHisto
   candidates_.update(history, context);
   if (context.time < settings_.birth || context.time > settings_.death) return report;
   const double travel = ContactCandidates::travel(history);
+  const double* tied = ties_ ? candidates_.view(history, 0).memory + kNodeSlots : nullptr;
   double omega2 = 0;
   for (int p = 0; p < static_cast<int>(candidates_.passes().size()); ++p) {
     const ContactCandidates::View view = candidates_.view(history, p);
@@ -285,7 +324,7 @@ ContactReport PenaltyContact::forces(const ContactContext& context, ContactHisto
       const int i = view.due_list[k];
       const NearNode near = view.list[i];
       double* due = view.due_candidates + view.list.first_candidate(i);
-      solve_near(p, near, context, travel, due, view.memory + kNodeSlots * near.node,
+      solve_near(p, near, context, travel, tied, due, view.memory + slots() * near.node,
                  view.results + kResultSlots * k);
       view.due_nodes[i] = *std::min_element(due, due + near.candidates.size());
     }
@@ -310,13 +349,19 @@ ContactPass make_pass(const ContactSurface& nodes, const ContactSurface& facets)
   return pass;
 }
 
+std::optional<BreakingTies> ties_of(const ContactSurface& nodes, const PenaltySettings& settings) {
+  if (!settings.tiebreak) return std::nullopt;
+  return BreakingTies(*settings.tiebreak, settings.nominal_step, nodes.nodes, nodes.facets);
+}
+
 }  // namespace
 
 std::unique_ptr<ContactInterface> make_node_contact(std::string name, ContactSurface nodes,
                                                     ContactSurface facets,
                                                     const PenaltySettings& settings) {
-  return std::make_unique<PenaltyContact>(
-      std::move(name), std::vector<ContactPass>{make_pass(nodes, facets)}, settings);
+  return std::make_unique<PenaltyContact>(std::move(name),
+                                          std::vector<ContactPass>{make_pass(nodes, facets)},
+                                          settings, ties_of(nodes, settings));
 }
 
 std::unique_ptr<ContactInterface> make_surface_contact(std::string name, ContactSurface first,
@@ -325,7 +370,8 @@ std::unique_ptr<ContactInterface> make_surface_contact(std::string name, Contact
   std::vector<ContactPass> passes{make_pass(first, second), make_pass(second, first)};
   if (!first.facets.empty()) passes[0].surface_of_nodes = 1;
   if (!second.facets.empty()) passes[1].surface_of_nodes = 0;
-  return std::make_unique<PenaltyContact>(std::move(name), std::move(passes), settings);
+  return std::make_unique<PenaltyContact>(std::move(name), std::move(passes), settings,
+                                          ties_of(first, settings));
 }
 
 std::unique_ptr<ContactInterface> make_single_surface_contact(std::string name,

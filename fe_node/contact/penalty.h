@@ -13,13 +13,18 @@
 // largest 1/m of the facet's nodes); nodes that a constraint moves count as infinitely heavy, and
 // by their shares of their bodies' masses where both sides are such.
 //
+// With a tiebreak (tiebreak.h) nodes begin tied; a tied node, and a facet with a tied node, take
+// no part in contact until the tie has broken.
+//
 // Which pairs are looked at, and surfaces that erode: candidates.h.
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "fe_node/contact/contact.h"
 #include "fe_node/contact/surface.h"
+#include "fe_node/contact/tiebreak.h"
 
 namespace crosswalk::fe {
 
@@ -40,6 +45,9 @@ struct PenaltySettings {
   double search_margin = 0;  ///< m; 0: half the mean facet edge
   InitialPenetration initial = InitialPenetration::Accepted;
   double birth = 0, death = 1e300;  ///< s
+  /// Nodes of the first surface that lie at the second when the run starts are tied to it until
+  /// these limits; not of a single surface.
+  std::optional<TiebreakLimits> tiebreak;
 };
 
 /// Nodes of `nodes` against facets of `facets`.

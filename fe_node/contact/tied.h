@@ -1,7 +1,4 @@
-// Nodes tied to facets by stiff springs, offsets kept: each node stays at its place over the facet,
-// point + offset x normal. The spring's force and the facet's forces balance exactly, moments
-// included, so a rigid motion of both costs nothing and momenta are kept. Stiffness is the most
-// the step allows, m* / (4 dt^2) (penalty.h).
+// Nodes tied to facets for good (tie.h).
 #pragma once
 
 #include <memory>
@@ -13,9 +10,7 @@ namespace crosswalk::fe {
 
 struct TiedSettings {
   double nominal_step = 0;  ///< s; the solver's step
-  /// Nodes are tied when nearer than this to their facet, m; 0: 0.6 (t1 + t2) and 5 % of the
-  /// smaller diagonal, whichever is larger [hallquist2006, 26.10].
-  double tolerance = 0;
+  double tolerance = 0;     ///< m; see tie_tolerance()
 };
 
 /// Nodes that find no facet stay free, those whose facet's element has failed come free; `active`

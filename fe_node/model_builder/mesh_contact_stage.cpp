@@ -101,11 +101,7 @@ class MeshContactStage {
                    "one that cannot");
         return;
     }
-    if (card_.is_tiebreak) {
-      c_.problem(card_.source, "*CONTACT_" + card_.keyword, "a contact without tiebreak",
-                 "a tiebreak");
-      return;
-    }
+    if (card_.is_tiebreak && !add_tiebreak(spec)) return;
     if (c_.problem_count > 0) return;
     std::optional<MeshContactSpec> edges;
     if (asks_for_edges()) edges = edge_contact(spec);
@@ -176,6 +172,43 @@ class MeshContactStage {
       edges.insert(edges.end(), more.begin(), more.end());
     }
     return edges;
+  }
+
+  /// Card 4 of the tiebreak kinds; false when it asks for what cannot be run.
+  bool add_tiebreak(MeshContactSpec& spec) {
+    const std::string who = "*CONTACT_" + card_.keyword;
+    const auto refuse = [&](std::string expected, std::string found) {
+      c_.problem(card_.source, who, std::move(expected), std::move(found));
+      return false;
+    };
+    if (spec.kind != MeshContactSpec::Kind::Surfaces &&
+        spec.kind != MeshContactSpec::Kind::NodesToSurface)
+      return refuse("a tiebreak of a surface or nodes with a surface", "another kind");
+    const std::array<double, 8>& f = card_.special;
+    TiebreakLimits limits;
+    std::size_t at = 0;
+    if (card_.is_automatic) {
+      if (f[0] != 2)
+        return refuse("OPTION 2 (tied until a stress limit)", fmt::format("{:g}", f[0]));
+      if (f[3] != 0) return refuse("PARAM 0", fmt::format("{:g}", f[3]));
+      at = 1;
+    }
+    limits.is_stress = card_.is_automatic || card_.keyword.find("NODES") == std::string::npos;
+    const double unit = limits.is_stress ? c_.units.stress() : c_.units.force();
+    limits.normal = f[at] * unit;
+    limits.shear = f[at + 1] * unit;
+    if (!limits.is_stress) {
+      if (f[2] > 0) limits.normal_exponent = f[2];
+      if (f[3] > 0) limits.shear_exponent = f[3];
+    } else if (!card_.is_automatic && f[2] != 0) {
+      return refuse("no curve of stress over gap (TBLCID)", fmt::format("{:g}", f[2]));
+    }
+    if (limits.normal < 0 || limits.shear < 0 || limits.normal + limits.shear == 0)
+      return refuse("a positive limit of pull or shear", "none");
+    if (limits.is_stress && spec.first.facets.empty())
+      return refuse("a surface on the slave side, for stress limits", "nodes");
+    spec.settings.tiebreak = limits;
+    return true;
   }
 
   std::vector<int> parts_of(const ContactSide& side) {

@@ -24,6 +24,9 @@ ShellMatter::ShellMatter(const ShellSection& of_section, const ElementControls& 
           }
         },
         layer.law);
+  for (const ShellLayer& layer : section.layers)
+    for (const ShellPoint& point : layer.points) off_middle -= point.weight * point.position;
+  if (std::abs(off_middle) < 1e-9) off_middle = 0;  // of rules that sum to nought in rounding
 }
 
 namespace {

@@ -14,6 +14,7 @@ struct ShellMatter {
   double density = 0;              ///< kg/m3, mean
   double youngs = 0, poisson = 0;  ///< of the stiffest layer
   double mean_youngs = 0;          ///< over the thickness
+  double off_middle = 0;           ///< of the nodes, in units of the thickness
 
   ShellMatter(const ShellSection& section, const ElementControls& controls);
   bool is_bending() const { return section.theory == ShellTheory::Bending; }
@@ -42,7 +43,9 @@ struct ShellAnswer {
 
 /// Bounds of omega^2 m / (n A t), n corners: the membrane's lambda' tr g + 2 mu g_max with lambda'
 /// = E nu / (1 - nu^2); the same times t^2 / (12 gyration) for bending; and kappa G times the
-/// larger eigenvalue of the shear rows for shear.
+/// larger eigenvalue of the shear rows for shear. Where the nodes lie off the middle by e the
+/// membrane's is for both at once, times the larger eigenvalue of (1, e / r; e / r, (t^2 / 12 +
+/// e^2) / r^2), r^2 the gyration.
 struct ShellBounds {
   Lanes membrane, bending, shear;
 };
@@ -58,7 +61,13 @@ ShellBounds shell_bounds(const ShellMatter& matter, const ShellShape<kCorners>& 
   bounds.membrane = lambda * trace + two_mu * largest;
   bounds.bending = bounds.shear = Lanes::Zero();
   if (!matter.is_bending()) return bounds;
-  bounds.bending = bounds.membrane * thickness * thickness / (12.0 * gyration);
+  const Lanes relative = thickness * thickness / gyration;
+  bounds.bending = bounds.membrane * relative * (1.0 / 12);
+  if (matter.off_middle != 0) {
+    const Lanes off2 = matter.off_middle * matter.off_middle * relative;
+    bounds.membrane *=
+        larger_eigenvalue(Lanes::Ones(), relative * (1.0 / 12) + off2, square_root(off2));
+  }
   bounds.shear = (0.5 * two_mu * matter.section.shear_factor) * shear_metric(shape, gyration);
   return bounds;
 }

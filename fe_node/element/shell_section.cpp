@@ -99,6 +99,11 @@ ShellSection membrane_section(ShellLaw law, double thickness) {
   return section;
 }
 
+void move_reference(ShellSection& section, double position) {
+  for (ShellLayer& layer : section.layers)
+    for (ShellPoint& point : layer.points) point.position -= position;
+}
+
 double series_shear_factor(const ShellSection& section) {
   double stiff = 0, compliance = 0;
   for (const ShellLayer& layer : section.layers) {

@@ -1,8 +1,8 @@
 // Shell sections: thickness, layers and their points through the thickness.
 //
-// Positions are measured from the mid-surface in units of the thickness, -1/2 at the bottom and
-// +1/2 at the top (the side the normal points to, nodes counted anticlockwise); weights are shares
-// of the thickness and sum to one.
+// Positions are measured from the surface of the nodes in units of the thickness: where that is the
+// mid-surface, -1/2 at the bottom and +1/2 at the top (the side the normal points to, nodes counted
+// anticlockwise); weights are shares of the thickness and sum to one.
 #pragma once
 
 #include <variant>
@@ -55,6 +55,10 @@ struct ShellSection {
   double density() const;         ///< kg/m3, mean over the thickness
   double youngs_modulus() const;  ///< Pa, likewise
 };
+
+/// Lets the nodes lie at that position of the section instead of in its middle (0), e.g. on its top
+/// (1/2). Stretching then bends and bending stretches.
+void move_reference(ShellSection& section, double position);
 
 /// One law over the whole thickness. Gauss points (1..5) sample inside, Lobatto points (3..10 here
 /// as trapezoid beyond 5) include the faces.

@@ -144,6 +144,9 @@ class Export {
     law.points = shell.form == ShellForm::Membrane ? 1 : shell.points;
     law.shear_factor = 5.0 / 6.0;
     law.thickness.fill(shell.thickness / units_.length);
+    law.reference_position = shell.reference == ShellReference::Top      ? 1
+                             : shell.reference == ShellReference::Bottom ? -1
+                                                                         : 0;
     if (shell.rule.empty()) return law;
     IntegrationShell rule{.id = DeckId(next_section_),
                           .points = static_cast<int>(shell.rule.size())};
@@ -174,6 +177,7 @@ class Export {
     for (const Quad& quad : draft_.mesh.quads) {
       ShellElement shell{.id = DeckId(++id), .part = DeckId(quad.part)};
       for (int c = 0; c < 4; ++c) shell.nodes[c] = node_id(quad.node[c]);
+      if (quad.thickness > 0) shell.thickness.fill(quad.thickness / units_.length);
       deck_.shells.push_back(shell);
     }
     std::set<int> beams;

@@ -12,6 +12,7 @@
 #include "fe_node/generate/membranes.h"
 #include "fe_node/generate/muscles.h"
 #include "fe_node/generate/part_ids.h"
+#include "fe_node/generate/skull.h"
 #include "fe_node/generate/spine.h"
 #include "fe_node/generate/spine_data.h"
 #include "fe_node/generate/tissues.h"
@@ -44,7 +45,6 @@ constexpr double kFleshBottom = 0.0;  // z of the lowest flesh nodes in N, refer
 constexpr double kReferenceHeadCentreX = 5, kReferenceHeadCentreZ = 26;  // of the tragion, mm
 constexpr double kHeadPlace = 1e-4;  // m, how near the head's centre comes to its place
 constexpr int kMostPasses = 4;
-constexpr double kOcciputRadius = 0.026;  // of the rigid skull base round the condyles, m [E]
 
 /// Spine centre line x over z in N.
 double spine_line(const Spine& spine, double z) {
@@ -101,18 +101,12 @@ class Assembly {
                        .levels_above_chin = resolution_.levels_above_chin,
                        .levels_below_chin = resolution_.levels_below_chin,
                        .section = [&](double z) { return section(z); }};
+    mark_skull_base(mesh, head, shape_, result_.landmarks.condyles - tragion, spine_[C0].part);
+    add_tables(mesh, head, shape_);
     add_membranes(mesh, head, shape_);
     flesh_ = add_face_and_flesh(mesh, head, shape_, plan);
-    skull_fit_ = head.skull_inner;
-    skull_outer_ = head.skull_outer;
-    const Vec3 condyles = result_.landmarks.condyles - tragion;
-    for (Hex& hex : mesh.hexes) {
-      if (hex.part != part::kDiploe) continue;
-      Vec3 centre = Vec3::Zero();
-      for (const int id : hex.node) centre += mesh.nodes[id] / 8;
-      if ((centre - condyles).head<2>().norm() < kOcciputRadius && centre.z() < 0)
-        hex.part = spine_[C0].part;
-    }
+    skull_fit_ = on_bone(mesh, head.skull_inner, spine_[C0].part);
+    skull_outer_ = on_bone(mesh, head.skull_outer, spine_[C0].part);
     for (Vec3& p : mesh.nodes) p += tragion;
   }
 
@@ -171,10 +165,11 @@ class Assembly {
     using namespace part;
     const std::vector<int> brain{kCerebrumLeft, kCerebrumRight, kCerebellumLeft, kCerebellumRight,
                                  kBrainstem};
-    std::vector<int> skull{kDiploe, kFirstVertebra - 10};
+    const std::vector<int> skull{kDiploe, kOuterTable, kInnerTable, kFirstVertebra - 10};
     head_parts_ = brain;
     head_parts_.insert(head_parts_.end(), skull.begin(), skull.end());
-    head_parts_.insert(head_parts_.end(), {kCsf, kDura, kPia, kFalx, kTentorium, kScalp, kFace});
+    head_parts_.insert(head_parts_.end(),
+                       {kCsf, kCord, kDura, kPia, kFalx, kTentorium, kScalp, kFace});
     neck_parts_ = {kFlesh};
     for (const PartSpec& p : draft().parts)
       if ((p.id >= kFirstVertebra && p.id < 4000) && p.id != kFirstVertebra - 10)
@@ -189,6 +184,8 @@ class Assembly {
 
   void settle_masses() {
     MassReport& report = result_.masses;
+    PartSpec& diploe = draft().part(part::kDiploe);
+    diploe.density = diploe_density(draft(), diploe.density);
     double mass = 0;
     Vec3 moments = Vec3::Zero();
     const double size = shape_.scale().prod();

@@ -14,6 +14,20 @@ constexpr double kReferenceLength = 0.197, kReferenceBreadth = 0.155;  // [gordo
 constexpr double kHalfAxisUp = 0.090, kPosteriorFossa = 0.066, kAnteriorFossa = 0.036;  // m [E]
 constexpr double kFossaStepBack = -0.2, kFossaStepFront = 0.6;  // of the half length [E]
 
+/// What a layer of bone has more or less than at the vertex, mm.
+struct Regions {
+  double frontal, occipital, temporal, base;
+};
+
+/// Thickness of a layer of bone in a direction from the cranial centre, m.
+double mapped_thickness(const Vec3& d, double vertex, const Regions& more) {
+  const double front = std::max(0.0, d.x()), back = std::max(0.0, -d.x());
+  const double temporal =
+      smooth_step(0.6, 0.98, std::abs(d.y())) * (1.0 - smooth_step(0.0, 0.45, d.z()));
+  return 1e-3 * (vertex + more.frontal * front * front + more.occipital * back * back +
+                 more.temporal * temporal + more.base * smooth_step(0.3, 0.7, -d.z()));
+}
+
 }  // namespace
 
 // The chin alone follows the measured chin height: the three heights of [yu2020, Table 2] are
@@ -72,12 +86,17 @@ double HeadShape::scalp_thickness(const Vec3& d) {
   return 0.005 + 0.004 * temporal + 0.002 * occipital;
 }
 
+// Skull, outer and inner table, mm: vertex 6.8, 1.8, 1.4; frontal 7.4, 2.0, 1.5;
+// occipital 8.0, 2.2, 1.7; temporal 4.5, 1.6, 1.3; base 9.3, 2.0, 1.5. Layer medians over all
+// regions are 2.4 (outer) and 1.7 mm (inner) [zwirner2021].
 double HeadShape::skull_thickness(const Vec3& d) {
-  const double front = std::max(0.0, d.x()), back = std::max(0.0, -d.x());
-  const double temporal =
-      smooth_step(0.6, 0.98, std::abs(d.y())) * (1.0 - smooth_step(0.0, 0.45, d.z()));
-  return 1e-3 * (6.8 + 0.6 * front * front + 1.2 * back * back - 2.3 * temporal +
-                 2.5 * smooth_step(0.3, 0.7, -d.z()));
+  return mapped_thickness(d, 6.8, {0.6, 1.2, -2.3, 2.5});
+}
+double HeadShape::outer_table_thickness(const Vec3& d) {
+  return mapped_thickness(d, 1.8, {0.2, 0.4, -0.2, 0.2});
+}
+double HeadShape::inner_table_thickness(const Vec3& d) {
+  return mapped_thickness(d, 1.4, {0.1, 0.3, -0.1, 0.1});
 }
 
 double HeadShape::face_height(double z) const {

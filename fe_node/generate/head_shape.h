@@ -42,7 +42,9 @@ class HeadShape {
   Ray ray(const Vec3& u) const;
 
   static double scalp_thickness(const Vec3& direction);
-  static double skull_thickness(const Vec3& direction);
+  static double skull_thickness(const Vec3& direction);  ///< tables and diploe together
+  static double outer_table_thickness(const Vec3& direction);
+  static double inner_table_thickness(const Vec3& direction);
   static constexpr double kCsfThickness = 0.0022;  ///< of 11.4 % CSF by volume [matsumae1996] [E]
 
   /// Point of the face block's horizontal section; height 0 at the chin, 1 at the cranial centre,

@@ -84,8 +84,9 @@ Inertia inertia_of(const ModelDraft& draft, const std::vector<int>& parts, bool 
     const auto& n = draft.mesh.nodes;
     const double area =
         0.5 * (n[quad.node[2]] - n[quad.node[0]]).cross(n[quad.node[3]] - n[quad.node[1]]).norm();
+    const double thickness = quad.thickness > 0 ? quad.thickness : shell->thickness;
     for (const int id : quad.node)
-      add(0.25 * area * shell->thickness * density_of(draft, quad.part), n[id]);
+      add(0.25 * area * thickness * density_of(draft, quad.part), n[id]);
   }
   if (with_points)
     for (const PointMass& point : draft.mesh.masses) add(point.mass, draft.mesh.nodes[point.node]);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "fe_node/generate/part_ids.h"
+#include "fe_node/generate/skull.h"
 
 namespace crosswalk::fe::generate {
 
@@ -81,16 +82,22 @@ std::vector<int> brain_parts(const MeshDraft& draft) {
 }
 
 void add_surface(MeshDraft& draft, const CubedSphere& sphere, const std::vector<int>& node,
-                 int part) {
-  for (const auto& quad : sphere.quads())
-    draft.quads.push_back({{node[quad[0]], node[quad[1]], node[quad[2]], node[quad[3]]}, part});
+                 int part, const std::function<bool(int quad)>& is_wanted) {
+  for (int q = 0; q < static_cast<int>(sphere.quads().size()); ++q) {
+    const auto& quad = sphere.quads()[q];
+    if (is_wanted(q))
+      draft.quads.push_back({{node[quad[0]], node[quad[1]], node[quad[2]], node[quad[3]]}, part});
+  }
 }
 
 }  // namespace
 
 void add_membranes(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape) {
-  add_surface(draft, head.sphere, head.brain_surface, part::kPia);
-  add_surface(draft, head.sphere, head.skull_inner, part::kDura);
+  add_surface(draft, head.sphere, head.brain_surface, part::kPia, [](int) { return true; });
+  // The spinal dura goes on from the rim of the foramen and spans nothing.
+  const std::vector<int> skull = skull_parts(draft, head);
+  add_surface(draft, head.sphere, head.skull_inner, part::kDura,
+              [&](int quad) { return skull[quad] != part::kCord; });
   const std::vector<int> parts = brain_parts(draft);
 
   std::vector<Side> halves(parts.size(), Side::None), floors(parts.size(), Side::None);

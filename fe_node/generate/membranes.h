@@ -10,7 +10,7 @@
 
 namespace crosswalk::fe::generate {
 
-/// Adds the quads to a draft that holds the cranium and nothing else.
+/// Adds the quads to a draft that holds the cranium and its tables and nothing else.
 void add_membranes(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape);
 
 }  // namespace crosswalk::fe::generate

@@ -19,6 +19,7 @@ struct Hex {
 struct Quad {
   std::array<int, 4> node{};
   int part = 0;
+  double thickness = 0;  ///< m; 0: the section's
 };
 
 /// A spring, ligament or muscle strand between two nodes.

@@ -5,8 +5,7 @@ namespace crosswalk::fe::generate::part {
 
 inline constexpr int kScalp = 1000;
 inline constexpr int kOuterTable = 1010;
-inline constexpr int kDiploe =
-    1011;  ///< of sandwich skulls; the whole skull where it is solid only
+inline constexpr int kDiploe = 1011;  ///< bricks of the whole skull, the tables on their faces
 inline constexpr int kInnerTable = 1012;
 inline constexpr int kDura = 1020;
 inline constexpr int kCsf = 1021;
@@ -16,6 +15,7 @@ inline constexpr int kCerebrumRight = 1031;
 inline constexpr int kCerebellumLeft = 1032;
 inline constexpr int kCerebellumRight = 1033;
 inline constexpr int kBrainstem = 1034;
+inline constexpr int kCord = 1036;  ///< in the foramen magnum
 inline constexpr int kFalx = 1040;
 inline constexpr int kTentorium = 1041;
 inline constexpr int kFace = 1050;

@@ -15,10 +15,14 @@ struct SolidSection {
   double hourglass = 0.05;  ///< coefficient of the stiffness form, on the shear modulus
 };
 enum class ShellForm { OnePoint, Full, Membrane };  ///< ELFORM 2, 16 and 5
+/// Where the nodes of a shell lie: in its middle, on its top (the side of the normal) or bottom.
+enum class ShellReference { Middle, Top, Bottom };
+
 struct ShellSection {
-  double thickness = 0;  ///< m
+  double thickness = 0;  ///< m; of quads without their own
   int points = 5;
   ShellForm form = ShellForm::OnePoint;
+  ShellReference reference = ShellReference::Middle;
   /// Position (-1 bottom .. 1 top) and weight of own points through the thickness; empty: Gauss.
   std::vector<std::pair<double, double>> rule;
 };

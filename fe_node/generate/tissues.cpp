@@ -22,6 +22,21 @@ PartSpec brain(int id, const char* name, double shear_short, double shear_long, 
           .grade = grade};
 }
 
+mat::PlasticKinematic bone(double youngs, double yield, double tangent) {
+  return {.youngs = youngs, .poisson = 0.22, .yield = yield, .tangent = tangent, .hardening = 1};
+}
+
+PartSpec table(int id, const char* name, double thickness, const mat::PlasticKinematic& law,
+               ShellReference reference) {
+  return {.id = id,
+          .name = name,
+          .density = 2100,
+          .law = law,
+          .section = ShellSection{.thickness = thickness, .points = 5, .reference = reference},
+          .source = "cortical bone, 5.6 to 15 GPa in head models; yield 90 to 100 MPa",
+          .grade = Grade::Literature};
+}
+
 PartSpec membrane(int id, const char* name, double density, double youngs, double thickness,
                   const char* source) {
   return {.id = id,
@@ -47,15 +62,17 @@ std::vector<PartSpec> head_tissues() {
        .section = SolidSection{.hourglass = 0.05},
        .source = "K as GHBMC flesh; shear as scalp tests",
        .grade = Grade::Literature},
-      // Sandwich of tables 15 and 12 GPa, 1.8 and 1.4 mm, on 1 GPa diploe, spread evenly over 6.5
-      // mm.
+      // The density is that of the tissue; the tables' share of the bricks is taken off later.
       {.id = part::kDiploe,
-       .name = "skull",
-       .density = 1750,
-       .law = mat::Elastic{.youngs = 7.2e9, .poisson = 0.22},
+       .name = "diploe",
+       .density = 1300,
+       .law = bone(1.0e9, 25e6, 50e6),
        .section = SolidSection{.hourglass = 0.05},
-       .source = "membrane mean of tables and diploe",
-       .grade = Grade::Estimate},
+       .source = "E 0.6 to 4.6 GPa in head models; bricks of the whole skull",
+       .grade = Grade::Literature},
+      table(part::kOuterTable, "outer_table", 1.8e-3, bone(15e9, 95e6, 1.2e9), ShellReference::Top),
+      table(part::kInnerTable, "inner_table", 1.4e-3, bone(12e9, 90e6, 1.0e9),
+            ShellReference::Bottom),
       {.id = part::kFirstVertebra - 10,
        .name = "occiput",
        .density = 1750,
@@ -76,6 +93,15 @@ std::vector<PartSpec> head_tissues() {
       brain(part::kCerebellumLeft, "cerebellum_left", 6e3, 1.2e3, brain_source, Grade::Source),
       brain(part::kCerebellumRight, "cerebellum_right", 6e3, 1.2e3, brain_source, Grade::Source),
       brain(part::kBrainstem, "brainstem", 12e3, 2.4e3, stem_source, Grade::Literature),
+      {.id = part::kCord,
+       .name = "cord",
+       .density = 1040,
+       .law =
+           mat::Viscoelastic{
+               .bulk = kBrainBulk, .shear_short = 0.1e6, .shear_long = 0.1e6, .decay = 80},
+       .section = SolidSection{.hourglass = 0.05},
+       .source = "spinal cord, E 0.3 MPa; fills the foramen magnum",
+       .grade = Grade::Literature},
       membrane(part::kDura, "dura", 1130, 31.5e6, 1.0e-3, "E 31.5 MPa, 1 mm, as in most models"),
       membrane(part::kPia, "pia", 1000, 11.5e6, 0.1e-3, "arachnoid and pia as one, 0.1 mm"),
       membrane(part::kFalx, "falx", 1130, 31.5e6, 1.0e-3, "as dura"),

@@ -124,6 +124,8 @@ std::optional<ShellSection> layered_section(BuildContext& c, const Part& part) {
                             ? membrane_section(*law, thickness)
                             : uniform_section(*law, thickness, points, rule);
   if (!ruled->empty() && !is_membrane(card->formulation)) result.layers[0].points = *ruled;
+  if (!is_membrane(card->formulation))
+    move_reference(result, std::clamp(0.5 * card->reference_position, -0.5, 0.5));
   return result;
 }
 

@@ -148,6 +148,8 @@ void DeckRun::run(double end, double interval, const std::function<void(const St
   double next = state_.time;
   while (true) {
     const StepReport report = compute_forces(built_.model, state_, *scratch_);
+    largest_internal_ = std::max(largest_internal_, state_.energies.internal);
+    largest_hourglass_ = std::max(largest_hourglass_, state_.energies.hourglass());
     if (state_.time >= next - 1e-12) {
       watch(state_);
       next += interval;

@@ -60,6 +60,8 @@ class DeckRun {
   const State& state() const { return state_; }
   const Scratch& scratch() const { return *scratch_; }
   double added_mass_share() const;
+  double largest_internal() const { return largest_internal_; }    ///< energy until now, J
+  double largest_hourglass() const { return largest_hourglass_; }  ///< likewise
   /// The solver's own index of a draft node: the solver orders nodes anew.
   int node_of(int draft_node) const { return node_of_[draft_node]; }
 
@@ -71,6 +73,7 @@ class DeckRun {
   State state_;
   std::unique_ptr<Scratch> scratch_;
   std::vector<int> node_of_;
+  double largest_internal_ = 0, largest_hourglass_ = 0;
 };
 
 }  // namespace crosswalk::fe::validate

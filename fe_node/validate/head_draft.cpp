@@ -99,7 +99,7 @@ ModelDraft rigid_skull_head(const generate::HeadNeck& whole) {
   for (generate::Hex& hex : draft.mesh.hexes)
     if (hex.part == part::kDiploe) hex.part = kOcciput;
   std::vector<int> parts = parts_of_set(draft, "brain");
-  parts.insert(parts.end(), {part::kCsf, kOcciput, part::kPia, part::kFalx, part::kTentorium});
+  parts.insert(parts.end(), {part::kCsf, part::kCord, kOcciput, part::kPia, part::kFalx, part::kTentorium});
   ModelDraft out = extract(draft, parts);
   out.title = "Brain in a rigid skull";
   for (generate::PartSpec& spec : out.parts)

@@ -18,6 +18,7 @@ std::vector<Case> cases() {
       {"head", "hardy_rotation", "brain against skull in sagittal rotation", hardy_rotation},
       {"head", "rotation_pulses", "brain strain in rotations, against DAMAGE", rotation_pulses},
       {"head", "nahum_37", "pressure in the brain under a frontal blow", nahum_37},
+      {"head", "trosseille_428", "pressure under a long blow to the face", trosseille_428},
       {"head", "skull_stiffness", "rigid hemisphere pressed into the skull", skull_stiffness},
       {"head", "head_drops", "acceleration against drop height", head_drops},
       {"head", "mesh_refinement", "one drop at growing fineness", mesh_refinement},

@@ -45,6 +45,7 @@ CaseResult sphere_pressure(const CaseContext& context);
 CaseResult hardy_rotation(const CaseContext& context);
 CaseResult rotation_pulses(const CaseContext& context);
 CaseResult nahum_37(const CaseContext& context);
+CaseResult trosseille_428(const CaseContext& context);
 CaseResult head_drops(const CaseContext& context);
 CaseResult skull_stiffness(const CaseContext& context);
 CaseResult mesh_refinement(const CaseContext& context);

@@ -121,6 +121,34 @@ TEST_P(EveryShell, BendingPatchCarriesConstantMoment) {
     }
 }
 
+// Nodes on the top: a stretch of theirs also bends, N e, and their curvature meets D + e^2 A.
+TEST_P(EveryShell, NodesOffTheMiddleCoupleStretchAndBending) {
+  const Plate shape = plate(4, 4);
+  ShellSection section = glass(kThickness);
+  move_reference(section, 0.5);
+  Model model = plate_model(shape, section);
+  const double stretch = kYoungs / (1 - kPoisson * kPoisson) * kThickness, e = 0.5 * kThickness;
+  const auto edge_loads = [&](double strain, double curvature) {
+    PlateMotion motion = still(model);
+    for (int n = 0; n < model.mesh.node_count(); ++n) {
+      const double y = model.mesh.position[n].y();
+      motion.displacement[n] = {0, strain * y, 0.5 * curvature * y * y};
+      motion.rotation[n].x() = curvature * y;
+    }
+    const NodalLoads loads = loads_after(model, motion);
+    Eigen::Vector2d sum =
+        Eigen::Vector2d::Zero();  // force along y and moment about x at y = 0, which is 1 m long
+    for (int i = 0; i <= 4; ++i)
+      sum += Eigen::Vector2d(loads.force[shape.node(i, 0)].y(), loads.moment[shape.node(i, 0)].x());
+    return sum;
+  };
+  const double k = 1e-6, D = stretch * kThickness * kThickness / 12 + stretch * e * e;
+  EXPECT_NEAR(edge_loads(k, 0)[0], stretch * k, 1e-4 * stretch * k);
+  EXPECT_NEAR(edge_loads(k, 0)[1], stretch * e * k, 1e-4 * stretch * e * k);
+  EXPECT_NEAR(edge_loads(0, k)[0], stretch * e * k, 1e-4 * stretch * e * k);
+  EXPECT_NEAR(edge_loads(0, k)[1], D * k, 1e-4 * D * k);
+}
+
 TEST_P(EveryShell, LoadsOfAnyMotionHaveNoResultantAndNoMoment) {
   Model model = plate_model(plate(3, 3), glass(kThickness), {}, doubly_curved);
   PlateMotion motion = still(model);
@@ -155,8 +183,11 @@ double exact_stable_step(const Model& model) {
 
 // The element's own estimate against the exact largest frequency of its stiffness and mass.
 TEST_P(EveryShell, StableStepIsBelowTheExactOneAndNotWasteful) {
-  for (const double thickness : {0.002, 0.1, 0.4}) {
-    Model model = plate_model(plate(1, 1), glass(thickness), {}, [](const Vec3& p) {
+  for (const auto& [thickness, reference] :
+       {std::pair(0.002, 0.0), {0.1, 0.0}, {0.4, 0.0}, {0.1, 0.5}, {0.4, -0.5}}) {
+    ShellSection section = glass(thickness);
+    move_reference(section, reference);
+    Model model = plate_model(plate(1, 1), section, {}, [](const Vec3& p) {
       return Vec3(p.x() + 0.2 * p.y(), 0.7 * p.y(), 0);
     });
     model.finish();

@@ -143,6 +143,53 @@ TEST(HeadNeck, MembranesLieWhereTheyBelong) {
   EXPECT_NEAR(moment, 0, 1e-9);
 }
 
+TEST(HeadNeck, SkullWeighsWhatItsTissuesDo) {
+  const HeadNeck model = build_head_neck(untrimmed());
+  const auto mass = [&](std::vector<int> parts) {
+    return inertia_of(model.draft, parts, false).mass;
+  };
+  const double bone = volume_of(model, {part::kDiploe});
+  const double tables = mass({part::kOuterTable, part::kInnerTable});
+  EXPECT_NEAR(mass({part::kDiploe}), 1300 * (bone - tables / 2100), 1e-9);
+  // 3.2 of 6.5 mm are cortical at 2100 kg/m3, the rest diploe at 1300.
+  EXPECT_NEAR((mass({part::kDiploe}) + tables) / bone, 1700, 60);
+  for (const Quad& q : model.draft.mesh.quads)
+    if (q.part == part::kOuterTable || q.part == part::kInnerTable) {
+      EXPECT_GT(q.thickness, 1.2e-3);
+      EXPECT_LT(q.thickness, 2.3e-3);
+    }
+}
+
+// A hole of 30 mm through the base, 9.3 mm thick, filled with cord whose lower end hangs on
+// nothing.
+TEST(HeadNeck, ForamenMagnumIsOpenBelow) {
+  for (const Fidelity fidelity : {Fidelity::Coarse, Fidelity::Medium}) {
+    HeadNeckSpec spec = untrimmed();
+    spec.fidelity = fidelity;
+    const HeadNeck model = build_head_neck(spec);
+    const MeshDraft& mesh = model.draft.mesh;
+    const double share = volume_of(model, {part::kCord}) / (kPi * 0.015 * 0.015 * 0.0093);
+    EXPECT_NEAR(share, 1, fidelity == Fidelity::Coarse ? 0.35 : 0.2);
+    std::vector<int> others(mesh.nodes.size(), 0), cords(mesh.nodes.size(), 0);
+    for (const Hex& hex : mesh.hexes)
+      for (const int id : hex.node) ++(hex.part == part::kCord ? cords : others)[id];
+    for (const Quad& quad : mesh.quads)
+      for (const int id : quad.node) ++others[id];
+    for (const RigidAttachment& a : mesh.attachments)
+      for (const int id : a.nodes) ++others[id];
+    int below = 0;
+    double low = 1, high = -1;  // of the cord
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+      if (cords[n] == 0) continue;
+      low = std::min(low, mesh.nodes[n].z());
+      high = std::max(high, mesh.nodes[n].z());
+      if (others[n] == 0) ++below;
+    }
+    EXPECT_GE(below, 1);
+    EXPECT_GT(high - low, 0.009);
+  }
+}
+
 TEST(HeadNeck, BothSidesAreMirrorImages) {
   const HeadNeck model = build_head_neck(HeadNeckSpec{});
   EXPECT_NEAR(volume_of(model, {part::kCerebrumLeft}) / volume_of(model, {part::kCerebrumRight}), 1,

@@ -47,11 +47,13 @@ struct BlowOutcome {
   std::string note, map;
 };
 
-std::vector<int> skin_near(const FreeHead& head, const Vec3& p, double radius, int of_part) {
+/// Nodes of the part's bricks within the radius; `first_corner` 4: of their outer faces alone.
+std::vector<int> nodes_near(const FreeHead& head, const Vec3& p, double radius, int of_part,
+                            int first_corner) {
   std::vector<int> patch;
   for (const generate::Hex& hex : head.draft.mesh.hexes)
     if (hex.part == of_part)
-      for (int c = 0; c < 8; ++c)
+      for (int c = first_corner; c < 8; ++c)
         if ((head.draft.mesh.nodes[hex.node[c]] - p).norm() < radius) patch.push_back(hex.node[c]);
   std::sort(patch.begin(), patch.end());
   patch.erase(std::unique(patch.begin(), patch.end()), patch.end());
@@ -115,7 +117,7 @@ Gauge above_foramen(const FreeHead& head) {
 CaseResult nahum_37(const CaseContext& context) {
   const FreeHead head(context.fidelity);
   const Vec3 n = Vec3(1, 0, 1).normalized();  // Frankfurt plane 45 degrees forward-down
-  const Blow blow{n, skin_near(head, head.support(n), 0.030, part::kScalp), kNahumForce, 0.010};
+  const Blow blow{n, nodes_near(head, head.support(n), 0.030, part::kScalp, 4), kNahumForce, 0.010};
   const BlowOutcome out =
       strike(head, blow,
              {on_brain(head, "frontal", n), on_brain(head, "parietal", {0.1, 0.7, 0.7}),
@@ -158,9 +160,9 @@ CaseResult trosseille_428(const CaseContext& context) {
   // Middle of the face, between the orbits and the upper jaw.
   Vec3 struck = head.marks.tragion;
   for (const int id :
-       skin_near(head, head.marks.tragion + Vec3(0.085, 0, -0.020), 0.025, part::kFace))
+       nodes_near(head, head.marks.tragion + Vec3(0.085, 0, -0.020), 0.025, part::kFace, 0))
     if (head.draft.mesh.nodes[id].x() > struck.x()) struck = head.draft.mesh.nodes[id];
-  const Blow blow{n, skin_near(head, struck, 0.040, part::kFace), force, 1.3 * kDuration};
+  const Blow blow{n, nodes_near(head, struck, 0.040, part::kFace, 0), force, 1.3 * kDuration};
   const BlowOutcome out = strike(head, blow,
                                  {on_brain(head, "frontal", {0.9, 0, 0.3}),
                                   on_brain(head, "occipital", {-1, 0, 0}),

@@ -79,7 +79,7 @@ TEST(Skull, TablesCarryTheBendingOfTheSandwich) {
   const double between = stretch * 1e9 * second_moment(-h + kInner, h - kOuter);
   const double sandwich = tables + between;
   EXPECT_NEAR(sandwich, 286, 3);  // N m
-  for (const int layers : {1, 2}) {
+  for (const int layers : {2, 3}) {
     const auto [internal, hourglass] = bending_energy(layers, kCurvature);
     const double D = 2 * (internal + hourglass) / (kCurvature * kCurvature);
     // One-point bricks leave out their own layers' bending, 1 / layers^2 of it.

@@ -124,8 +124,6 @@ std::optional<ShellSection> layered_section(BuildContext& c, const Part& part) {
                             ? membrane_section(*law, thickness)
                             : uniform_section(*law, thickness, points, rule);
   if (!ruled->empty() && !is_membrane(card->formulation)) result.layers[0].points = *ruled;
-  if (!is_membrane(card->formulation))
-    move_reference(result, std::clamp(0.5 * card->reference_position, -0.5, 0.5));
   return result;
 }
 
@@ -138,6 +136,11 @@ std::optional<ShellSection> shell_section(BuildContext& c, const Part& part) {
                               ? part.composite->formulation
                               : std::get<SectionShell>(c.section_of(part)->law).formulation;
   if (is_full(formulation)) result->integration = ShellIntegration::Full;
+  const double reference = part.composite
+                               ? part.composite->reference_position
+                               : std::get<SectionShell>(c.section_of(part)->law).reference_position;
+  if (result->theory == ShellTheory::Bending && reference != 0)
+    move_reference(*result, std::clamp(0.5 * reference, -0.5, 0.5));
   if (formulation != 2 && formulation != 16 && !is_membrane(formulation))
     c.note(fmt::format(
         "part {}: shell formulation {} is computed as {}", part.id.value, formulation,

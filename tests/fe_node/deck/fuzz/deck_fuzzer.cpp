@@ -56,7 +56,13 @@ void transform(const fe::Deck& deck, const std::string& text) {
   include.content = deck;
   fe::DeckProblems problems;
   fe::add_transformed(outer, std::move(include), problems);
-  if (problems.errors.empty()) write_and_read_back(outer, text);
+  if (!problems.errors.empty()) return;
+  // computed numbers are rounded by the first writing; from then on the text is stable
+  const std::string written = fe::deck_text(outer);
+  const fe::ReadDeck again = fe::read_deck_text(written, "transformed", kNoIncludes);
+  if (!again.problems.errors.empty())
+    fail(again.problems.errors.kept().front().text().c_str(), text, written);
+  write_and_read_back(again.deck, text);
 }
 
 void run(const fe::Model& model, fe::State state, double step) {

@@ -20,15 +20,18 @@ std::vector<int> elements_of(const ElementTable& table, int part) {
   return elements;
 }
 
-/// Chains of *PART_AVERAGED: segments in deck order that share an end node.
+/// Chains of *PART_AVERAGED: segments that follow each other in the deck, from one end of the chain
+/// or from the other.
 std::vector<std::vector<int>> strands_of(const Mesh& mesh, const std::vector<int>& elements) {
   std::vector<std::vector<int>> strands;
-  int end = -1;
+  int begin = -1, end = -1;
   for (int e = 0; e < static_cast<int>(elements.size()); ++e) {
     const std::span<const int> corners = mesh.corners(ElementKind::Line2, elements[e]);
-    if (corners[0] != end) strands.emplace_back();
+    const bool goes_on = corners[0] == end, comes_before = corners[1] == begin;
+    if (!goes_on && !comes_before) strands.emplace_back();
     strands.back().push_back(e);
-    end = corners[1];
+    if (goes_on || !comes_before) end = corners[1];
+    if (!goes_on) begin = corners[0];
   }
   return strands;
 }

@@ -140,8 +140,9 @@ TEST(FeDeck, JointedBodiesInFreeFlightKeepMomenta) {
 
 TEST(FeDeck, JointsOfOtherKindsAreRefusedByName) {
   std::string text = pendulum(true);
-  text.replace(text.find("REVOLUTE"), 8, "CYLINDRICAL");
-  EXPECT_NE(build_problems(text).find("spherical, revolute or locking"), std::string::npos);
+  text.replace(text.find("REVOLUTE"), 8, "UNIVERSAL");
+  EXPECT_NE(build_problems(text).find("a spherical, revolute, cylindrical, planar"),
+            std::string::npos);
 }
 
 /// Bar of eight bricks along x, fixed at x = 0, pulled at the corner node of the far end.

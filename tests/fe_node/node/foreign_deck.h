@@ -82,8 +82,12 @@ inline Deck foreign_deck(Deck deck) {
   for (Material& material : deck.materials) {
     material.id = foreign_id(material.id);
     material.title.clear();
-    if (auto* spring = std::get_if<mat::SpringNonlinearElastic>(&material.law))
+    if (auto* spring = std::get_if<mat::SpringNonlinearElastic>(&material.law)) {
       spring->curve = foreign_id(spring->curve);
+      spring->rate_curve = foreign_id(spring->rate_curve);
+    }
+    if (auto* cable = std::get_if<mat::CableDiscreteBeam>(&material.law))
+      cable->curve = foreign_id(cable->curve);
   }
   for (DeckCurve& curve : deck.curves) curve.id = foreign_id(curve.id);
   std::erase_if(deck.sets, [](const DeckSet& set) { return set.kind == SetKind::Part; });

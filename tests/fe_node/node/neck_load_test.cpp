@@ -12,7 +12,8 @@ struct Momentum {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();  ///< angular about the origin of W
 };
 
-/// Of the nodes of a cut and the rigid bodies that hold some of them.
+/// Of the nodes of a cut, those of shells with their spin, and the rigid bodies that hold some of
+/// them.
 Momentum momentum_of(const Model& model, const SectionCut& cut, const State& state) {
   Momentum sum;
   std::vector<char> is_counted(model.bodies.size(), 0);
@@ -26,6 +27,8 @@ Momentum momentum_of(const Model& model, const SectionCut& cut, const State& sta
       x = body.X_WB.p;
       p = model.bodies[b].inertia.mass * body.V_WB.v;
       sum.angular += body.angular_momentum;
+    } else if (model.has_rotations()) {
+      sum.angular += model.inertia[n] * state.spin[n];
     }
     sum.linear += p;
     sum.angular += x.cross(p);

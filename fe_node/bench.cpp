@@ -36,7 +36,8 @@ double processor_time() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Multiply-adds on independent registers, flop per processor second, all threads at once.
+/// Multiply-adds on independent registers of N, flop per processor second, all threads at once.
+template <class N>
 double fma_rate(int threads) {
   constexpr int kChains = 10;  // latency times units, within the registers
   constexpr long kRounds = 4'000'000;
@@ -44,15 +45,15 @@ double fma_rate(int threads) {
   const double start = processor_time();
 #pragma omp parallel num_threads(threads) reduction(+ : total)
   {
-    std::array<Lanes, kChains> a;
-    for (int i = 0; i < kChains; ++i) a[i] = Lanes::Constant(1e-3 * i);
-    const Lanes x = Lanes::Constant(0.999999), y = Lanes::Constant(1e-9);
+    std::array<N, kChains> a;
+    for (int i = 0; i < kChains; ++i) a[i] = constant<N>(1e-3 * i);
+    const N x = constant<N>(0.999), y = constant<N>(1e-3);
     for (long round = 0; round < kRounds; ++round)
-      for (Lanes& chain : a) chain = chain * x + y;
-    for (const Lanes& chain : a) total += sum(chain);
+      for (N& chain : a) chain = chain * x + y;
+    for (const N& chain : a) total += sum(chain);
   }
-  const double rate =
-      2.0 * kChains * kLanes * static_cast<double>(kRounds) * threads / (processor_time() - start);
+  const double rate = 2.0 * kChains * kWidth<N> * static_cast<double>(kRounds) * threads /
+                      (processor_time() - start);
   return total > -1 ? rate : 0;  // keeps the sums alive
 }
 
@@ -73,8 +74,9 @@ double memory_rate(int threads) {
 /// Bytes that a step must bring through the core per element, from whatever cache: node records of
 /// its corners, its history in and out, undeformed shape and connectivity, its share of force rows
 /// and of the nodes' own update.
-double bytes_per_element(const Workload& work) {
+double bytes_per_element(const Workload& work, Precision precision) {
   const Model& model = work.model;
+  const double shape = precision == Precision::Double ? 368 : 184;
   double bytes = 0;
   for (std::size_t b = 0; b < model.blocks.size(); ++b) {
     if (model.sleeper && model.sleeper->blocks[b]) continue;
@@ -82,7 +84,7 @@ double bytes_per_element(const Workload& work) {
     const bool is_brick = block.kind() == ElementKind::Hex8;
     bytes += block.element_count() *
              (block.corners() * (64 + 4 + 2 + (block.has_moments() ? 24 : 0)) +
-              16.0 * block.history_per_group() / kLanes + (is_brick ? 368.0 : 16.0));
+              16.0 * block.history_per_group() / kLanes + (is_brick ? shape : 16.0));
   }
   const std::size_t rows = model.tiles.force_row_count + model.tiles.moment_row_count;
   const int nodes = awake_node_count(model, work.start);
@@ -108,15 +110,17 @@ struct Measurement {
   }
 };
 
-Measurement measure(const std::string& name, const Workload& work, int threads) {
+Measurement measure(const std::string& name, const Workload& work, Precision precision,
+                    int threads) {
   Measurement m;
   m.workload = name;
   m.threads = threads;
   m.elements = work.elements;
   m.nodes = awake_node_count(work.model, work.start);
   m.flops = work.flops_per_element;
-  m.bytes = bytes_per_element(work);
-  m.fma_rate = fma_rate(threads);
+  m.bytes = bytes_per_element(work, precision);
+  m.fma_rate =
+      precision == Precision::Double ? fma_rate<Lanes>(threads) : fma_rate<SingleLanes>(threads);
   m.memory_rate = memory_rate(threads);
   State state = work.start;
   Scratch scratch(work.model, threads);
@@ -147,7 +151,7 @@ double efficiency(const std::vector<Measurement>& all, const Measurement& m) {
   return 0;
 }
 
-std::string table_of(const std::vector<Measurement>& measurements) {
+std::string table_of(const std::vector<Measurement>& measurements, const char* precision) {
   std::string text =
       "                           million element-steps per     of FMA   of the  thread\n"
       "workload  elements  threads  second  core second  GB/s   rate  roofline  efficiency  energy "
@@ -160,12 +164,14 @@ std::string table_of(const std::vector<Measurement>& measurements) {
                     100 * m.roofline_share(), efficiency(measurements, m), m.energy_error);
   const Measurement& last = measurements.back();
   return text + fmt::format(
-                    "{}, {} lanes; per core second {:.1f} Gflop of multiply-adds, {:.1f} GB "
+                    "{}, {} lanes, elements in {} precision; per core second {:.1f} Gflop of "
+                    "multiply-adds, {:.1f} GB "
                     "copied in memory\n",
-                    processor_name(), kLanes, 1e-9 * last.fma_rate, 1e-9 * last.memory_rate);
+                    processor_name(), kLanes, precision, 1e-9 * last.fma_rate,
+                    1e-9 * last.memory_rate);
 }
 
-std::string json_of(const std::vector<Measurement>& measurements) {
+std::string json_of(const std::vector<Measurement>& measurements, const char* precision) {
   nlohmann::json rows = nlohmann::json::array();
   for (const Measurement& m : measurements)
     rows.push_back({{"workload", m.workload},
@@ -186,7 +192,10 @@ std::string json_of(const std::vector<Measurement>& measurements) {
                     {"memory_bytes_per_core_s", m.memory_rate},
                     {"roofline_share", m.roofline_share()},
                     {"energy_balance_error", m.energy_error}});
-  return nlohmann::json{{"processor", processor_name()}, {"lanes", kLanes}, {"measurements", rows}}
+  return nlohmann::json{{"processor", processor_name()},
+                        {"lanes", kLanes},
+                        {"precision", precision},
+                        {"measurements", rows}}
              .dump(2) +
          "\n";
 }
@@ -203,10 +212,11 @@ std::string run_bench(const BenchRequest& request) {
   }
   std::vector<Measurement> measurements;
   for (const std::string& name : names) {
-    const Workload work = make_workload(name);
-    for (int t : threads) measurements.push_back(measure(name, work, t));
+    const Workload work = make_workload(name, request.precision);
+    for (int t : threads) measurements.push_back(measure(name, work, request.precision, t));
   }
-  return request.json ? json_of(measurements) : table_of(measurements);
+  const char* precision = request.precision == Precision::Double ? "double" : "single";
+  return request.json ? json_of(measurements, precision) : table_of(measurements, precision);
 }
 
 }  // namespace crosswalk::fe

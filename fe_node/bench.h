@@ -5,11 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "fe_node/element/element_controls.h"
+
 namespace crosswalk::fe {
 
 struct BenchRequest {
   std::vector<std::string> workloads;  ///< see bench_workloads.h; empty: all
   std::vector<int> threads;            ///< empty: 1 and all
+  Precision precision = Precision::Double;
   bool json = false;
 };
 

@@ -63,7 +63,7 @@ std::vector<int> elements_of(const Mesh& mesh, ElementKind kind, int part) {
 }
 
 /// A: block of 1 mm steel bricks, one face held, a smooth initial velocity of 1 m/s.
-Model steel_block(std::array<int, 3> cells) {
+Model steel_block(std::array<int, 3> cells, Precision precision) {
   Mesh mesh;
   const auto node = [&](int i, int j, int k) {
     return (k * (cells[1] + 1) + j) * (cells[0] + 1) + i;
@@ -87,9 +87,10 @@ Model steel_block(std::array<int, 3> cells) {
   mesh.parts.push_back({DeckId(1), "steel", false});
   Model model;
   model.mesh = ordered(mesh, ElementKind::Hex8);
-  model.blocks.push_back(
-      make_hex8_block(model.mesh, 0, elements_of(model.mesh, ElementKind::Hex8, 0),
-                      Elastic::from_young(7850, 210e9, 0.3), {HourglassForm::Viscous, 0.1}));
+  model.blocks.push_back(make_hex8_block(
+      model.mesh, 0, elements_of(model.mesh, ElementKind::Hex8, 0),
+      Elastic::from_young(7850, 210e9, 0.3),
+      {.hourglass = HourglassForm::Viscous, .hourglass_coefficient = 0.1, .precision = precision}));
   for (int n = 0; n < model.mesh.node_count(); ++n) {
     const Vec3& p = model.mesh.position[n];
     if (p.z() == 0)
@@ -103,7 +104,7 @@ Model steel_block(std::array<int, 3> cells) {
 }
 
 /// B: brain in a skull, an ellipsoid turned by a pulse of 10 krad/s2.
-Model brain_ellipsoid() {
+Model brain_ellipsoid(Precision precision) {
   constexpr int kCells = 26, kBrain = 1, kSkull = 2;
   const Vec3 outer(0.085, 0.070, 0.065), inner = outer - Vec3::Constant(0.006);
   generate::MeshDraft draft;
@@ -128,12 +129,12 @@ Model brain_ellipsoid() {
   mesh.parts = {{DeckId(1), "brain", false}, {DeckId(2), "skull", false}};
   Model model;
   model.mesh = ordered(mesh, ElementKind::Hex8);
+  model.blocks.push_back(make_hex8_block(
+      model.mesh, 0, elements_of(model.mesh, ElementKind::Hex8, 0),
+      Viscoelastic::from_single_term(1040, 2.19e9, 6e3, 1.2e3, 80), {.precision = precision}));
   model.blocks.push_back(
-      make_hex8_block(model.mesh, 0, elements_of(model.mesh, ElementKind::Hex8, 0),
-                      Viscoelastic::from_single_term(1040, 2.19e9, 6e3, 1.2e3, 80), {}));
-  model.blocks.push_back(make_hex8_block(model.mesh, 1,
-                                         elements_of(model.mesh, ElementKind::Hex8, 1),
-                                         Elastic::from_young(1700, 6.5e9, 0.22), {}));
+      make_hex8_block(model.mesh, 1, elements_of(model.mesh, ElementKind::Hex8, 1),
+                      Elastic::from_young(1700, 6.5e9, 0.22), {.precision = precision}));
   for (int n = 0; n < model.mesh.node_count(); ++n)
     model.start_velocities.push_back({{n}, Vec3(0, 0, 30).cross(model.mesh.position[n])});
   model.finish();
@@ -142,7 +143,7 @@ Model brain_ellipsoid() {
 
 /// C: pane of 1.45 x 1.00 m in 5 mm shells, its edges held across, a sphere of 4.5 kg just above
 /// it.
-Model struck_pane() {
+Model struck_pane(Precision precision) {
   constexpr int kX = 290, kY = 200;
   constexpr double kCell = 0.005, kRadius = 0.0825, kMass = 4.5;
   Mesh mesh;
@@ -167,9 +168,9 @@ Model struck_pane() {
   steel.youngs_modulus = 210e9;
   steel.poisson_ratio = 0.3;
   steel.yield = YieldStress(HardeningCurve::linear(180e6, 1e9));
-  model.blocks.push_back(make_shell_block(model.mesh, ElementKind::Quad4, 0,
-                                          elements_of(model.mesh, ElementKind::Quad4, 0),
-                                          uniform_section(steel, 1e-3, 5), {}));
+  model.blocks.push_back(make_shell_block(
+      model.mesh, ElementKind::Quad4, 0, elements_of(model.mesh, ElementKind::Quad4, 0),
+      uniform_section(steel, 1e-3, 5), {.precision = precision}));
   RigidSurfaceSpec contact;
   for (int n = 0; n < model.mesh.node_count(); ++n) {
     const Vec3& p = model.mesh.position[n];
@@ -192,13 +193,14 @@ Model struck_pane() {
 }
 
 /// D: the head and neck of the coupled model at `medium`; its torso blocks are driven.
-Workload head_and_neck(bool has_pane) {
+Workload head_and_neck(bool has_pane, Precision precision) {
   generate::HeadNeckSpec spec;
   spec.fidelity = generate::Fidelity::Medium;
   Deck deck = generate::generate_head_neck(spec);
   BuildOptions options;
   options.driven_parts = {"block_torso_up", "block_clavicle_l", "block_clavicle_r"};
   options.mass_scaling_step = 0;
+  options.precision = precision;
   if (has_pane) {
     for (const DeckNode& node : deck.nodes)
       options.last_nodes_from = std::max(options.last_nodes_from, node.id.value + 1);
@@ -244,18 +246,18 @@ Workload of_model(Model model, double flops_per_element) {
 
 std::vector<std::string> workload_names() { return {"A20k", "A", "A500k", "B", "C", "D", "Dpane"}; }
 
-Workload make_workload(std::string_view name) {
-  if (name == "A20k") return of_model(steel_block({28, 28, 26}), kFlopsPerElasticHex);
-  if (name == "A") return of_model(steel_block({50, 50, 40}), kFlopsPerElasticHex);
-  if (name == "A500k") return of_model(steel_block({80, 80, 79}), kFlopsPerElasticHex);
-  if (name == "B") return of_model(brain_ellipsoid(), kFlopsPerViscoelasticHex);
+Workload make_workload(std::string_view name, Precision precision) {
+  if (name == "A20k") return of_model(steel_block({28, 28, 26}, precision), kFlopsPerElasticHex);
+  if (name == "A") return of_model(steel_block({50, 50, 40}, precision), kFlopsPerElasticHex);
+  if (name == "A500k") return of_model(steel_block({80, 80, 79}, precision), kFlopsPerElasticHex);
+  if (name == "B") return of_model(brain_ellipsoid(precision), kFlopsPerViscoelasticHex);
   if (name == "C") {
-    Workload work = of_model(struck_pane(), kFlopsPerPlasticShell);
+    Workload work = of_model(struck_pane(precision), kFlopsPerPlasticShell);
     work.start.bodies[0].V_WB.v = {0, 0, -11.1};
     return work;
   }
-  if (name == "D") return head_and_neck(false);
-  if (name == "Dpane") return head_and_neck(true);
+  if (name == "D") return head_and_neck(false, precision);
+  if (name == "Dpane") return head_and_neck(true, precision);
   throw UserError(Problem{{},
                           "workload",
                           fmt::format("one of {}", fmt::join(workload_names(), " ")),

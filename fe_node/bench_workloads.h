@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fe_node/element/element_controls.h"
 #include "fe_node/model.h"
 #include "fe_node/state.h"
 
@@ -23,6 +24,6 @@ struct Workload {
 /// D      the generated head and neck, pulled at its neck: every kind of element and contact
 /// Dpane  the same beside a sleeping windshield of 5 mm shells
 std::vector<std::string> workload_names();
-Workload make_workload(std::string_view name);
+Workload make_workload(std::string_view name, Precision precision);
 
 }  // namespace crosswalk::fe

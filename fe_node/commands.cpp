@@ -39,6 +39,16 @@ std::string energy_table(const SolveResult& r) {
       r.total_mass);
 }
 
+void add_precision(CLI::App& options, Precision& precision) {
+  static const std::map<std::string, Precision> kNames{{"double", Precision::Double},
+                                                       {"single", Precision::Single}};
+  options
+      .add_option("--precision", precision,
+                  "double or single: numbers in which elements compute; nodes are double always")
+      ->transform(CLI::CheckedTransformer(kNames))
+      ->default_str("double");
+}
+
 /// What `solve` and `check` have in common.
 struct DeckOptions {
   std::vector<std::string> include_paths;
@@ -116,6 +126,7 @@ NodeCommand solve_command() {
                 ->check(CLI::PositiveNumber);
             options.add_flag("--accept-missing", request->accept_missing,
                              "Run although keywords that change the physics are not understood");
+            add_precision(options, request->precision);
             options.add_option("--restart", request->restart, "restart.bin to go on from");
             return [request, deck, end_ms] {
               request->end_time = 1e-3 * *end_ms;
@@ -167,6 +178,7 @@ NodeCommand bench_command() {
                 fmt::format("Any of {}; all by default", fmt::join(workload_names(), " ")));
             options.add_option("--threads", request->threads, "Threads; 1 and all by default");
             options.add_flag("--json", request->json, "One JSON object instead of a table");
+            add_precision(options, request->precision);
             return [request] {
               std::cout << run_bench(*request);
               return ExitCode::Done;

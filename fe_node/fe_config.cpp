@@ -137,6 +137,10 @@ FeConfig read_fe_config(ConfigDocument& document, const Scenario& scenario) {
   config.added_mass_limit =
       fe.quantity_or("added_mass_limit", Dimension::None, {0, 0.05}, 0.01,
                      "Share of the model's mass that mass scaling may add; 0: no scaling.");
+  if (fe.choice_or("precision", {"double", "single"}, "single",
+                   "Numbers in which elements compute; nodes and sums are double always.") ==
+      "double")
+    config.precision = Precision::Double;
   ConfigTable output = root.table("output", "What is written beside the signals.");
   config.field_interval = output.quantity_or("field_interval", Dimension::Time, kNonNegative, 1e-3,
                                              "Time between field files; 0: none.");

@@ -9,6 +9,7 @@
 #include "common/body_description.h"
 #include "common/contact_shapes.h"
 #include "common/scenario.h"
+#include "fe_node/element/element_controls.h"
 #include "fe_node/generate/head_neck.h"
 #include "fe_node/generate/windshield.h"
 
@@ -43,6 +44,7 @@ struct FeConfig {
   double vehicle_friction = 0.3, self_friction = 0.2;
   double gravity = 0;  ///< m/s2, downwards
   double step_scale = 0.9;
+  Precision precision = Precision::Single;
   double added_mass_limit = 0.01;  ///< share of the whole mass that mass scaling may add
   double field_interval = 1e-3;    ///< s; 0: none
   double tissue_interval = 1e-3;   ///< s between published metrics

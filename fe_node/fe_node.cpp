@@ -55,10 +55,11 @@ FeNode::FeNode(FeConfig config, int threads, std::filesystem::path folder)
   for (double m : model.added_mass) added += m;
   log_info(
       "model: {} nodes, {} hexahedra, {} shells, {} lines, mass {:.3f} kg (head {:.3f} kg), added "
-      "mass {:.4f} kg, stable step {:.3f} us",
+      "mass {:.4f} kg, stable step {:.3f} us, elements in {} precision",
       model.mesh.node_count(), model.mesh.table(ElementKind::Hex8).size(),
       model.mesh.table(ElementKind::Quad4).size(), model.mesh.table(ElementKind::Line2).size(),
-      model.total_mass(), inertia.mass, added, 1e6 * initial_stable_step(model));
+      model.total_mass(), inertia.mass, added, 1e6 * initial_stable_step(model),
+      config_.precision == Precision::Double ? "double" : "single");
   for (std::size_t p = 0; p < model.mesh.parts.size(); ++p)
     if (model.added_mass[p] > 0)
       log_info("added mass of part {} '{}': {:.3g} kg, {:.2g} %", model.mesh.parts[p].id.value,

@@ -60,6 +60,7 @@ class Assembly {
     write(deck, config_.is_head_alone ? "head.k" : "head_neck.k");
     options_.units = config_.head_neck.units;
     options_.mass_scaling_step = 0;
+    options_.precision = config_.precision;
     double step = scaling_step(deck);
     if (config_.windshield) {
       generate::WindshieldSpec spec = *config_.windshield;

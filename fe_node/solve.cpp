@@ -138,7 +138,9 @@ SolveResult solve_deck(const SolveRequest& request) {
   if (request.units != UnitSystem::Unknown) read.deck.units = request.units;
   require_runnable(read, request.accept_missing ? MissingPolicy::Accept : MissingPolicy::Refuse);
   for (const Problem& warning : read.problems.warnings.summary()) log_warning("{}", warning.text());
-  BuiltModel built = build_model(read.deck, {});
+  BuildOptions options;
+  options.precision = request.precision;
+  BuiltModel built = build_model(read.deck, options);
   finish_model(built);
   const Model& model = built.model;
   const double end = request.end_time > 0 ? request.end_time : built.end_time;

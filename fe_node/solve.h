@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fe_node/deck/keyword_reader.h"
+#include "fe_node/element/element_controls.h"
 #include "fe_node/energy.h"
 #include "fe_node/model.h"
 
@@ -17,6 +18,7 @@ struct SolveRequest {
   UnitSystem units = UnitSystem::Unknown;
   int threads = 1;
   double end_time = 0;            ///< s; 0: as the deck says
+  Precision precision = Precision::Double;
   bool accept_missing = false;    ///< run although the deck has keywords that cannot be honoured
   std::filesystem::path restart;  ///< state to go on from; empty: from the start
 };

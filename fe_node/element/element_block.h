@@ -5,7 +5,9 @@
 // the sign of a load on the node: the acceleration is (sum of corner forces + loads) / mass).
 // Corners are stored, not added up: the solver adds them per node in a fixed order (force_tiles.h),
 // so results are bit-identical for any number of threads. The last group is padded by repeating its
-// last element; padded lanes are never added.
+// last element; padded lanes are never added. Blocks that compute in single precision take two
+// groups at once; positions, velocities and sums stay double, so that only the element's own
+// arithmetic is rounded.
 #pragma once
 
 #include <limits>
@@ -31,7 +33,7 @@ struct StepContext {
   double time = 0;  ///< s, of the positions
   double dt = 0;    ///< s, from the last positions to these
   bool wants_stable_step = true;  ///< without it BlockSums::stable_step means nothing
-  int threads = 1;  ///< for prepare()
+  int threads = 1;                ///< for prepare()
 };
 
 /// Sums over the elements of a chunk; energies in J.
@@ -47,20 +49,26 @@ struct BlockSums {
   int failed = 0;  ///< elements that carry nothing any more
 };
 
-/// Sums of a kernel's loop over groups, lane by lane; booked once at its end.
+/// Sums of a kernel's loop over packs (the elements in one number of type N), lane by lane; booked
+/// once at its end.
+template <class N>
 struct LaneSums {
-  Lanes internal = Lanes::Zero(), hourglass = Lanes::Zero(), hourglass_dissipated = Lanes::Zero(),
-        viscous_dissipated = Lanes::Zero(), failed = Lanes::Zero();
-  Lanes step_squared = Lanes::Constant(std::numeric_limits<double>::infinity());
-  Lanes critical_group = Lanes::Constant(-1);
+  N internal = constant<N>(0), hourglass = constant<N>(0), hourglass_dissipated = constant<N>(0),
+    viscous_dissipated = constant<N>(0), failed = constant<N>(0);
+  N step_squared = constant<N>(std::numeric_limits<double>::infinity());
+  N critical_pack = constant<N>(-1);
 
   /// `squared` of lanes that do not count must be infinite.
-  void limit_step(const Lanes& squared, int group) {
-    critical_group = where_less(squared, step_squared, Lanes::Constant(group), critical_group);
+  void limit_step(const N& squared, int pack) {
+    critical_pack = where_less(squared, step_squared, constant<N>(pack), critical_pack);
     step_squared = smaller(squared, step_squared);
   }
   void book(BlockSums& sums) const;
 };
+
+/// Lane groups in one number of type N.
+template <class N>
+inline constexpr int kGroupsPerPack = kWidth<N> / kLanes;
 
 /// The state of one element as outputs want it; Cauchy stress in W.
 struct ElementSample {
@@ -80,7 +88,8 @@ class ElementBlock {
   ElementKind kind() const { return kind_; }
   int part() const { return part_; }
   int element_count() const { return static_cast<int>(mesh_elements_.size()); }
-  int group_count() const { return (element_count() + kLanes - 1) / kLanes; }
+  /// Whole packs of what the block computes with.
+  int group_count() const { return group_count_; }
   int corners() const { return corners_; }
   /// Index in the mesh table of a block-local element.
   int mesh_element(int element) const { return mesh_elements_[element]; }
@@ -128,19 +137,25 @@ class ElementBlock {
                                int element) const = 0;
 
  protected:
-  /// Takes the elements of `part` out of the mesh table in the order given.
-  ElementBlock(const Mesh& mesh, ElementKind kind, int part, std::vector<int> mesh_elements);
+  /// Takes the elements of `part` out of the mesh table in the order given. `groups_per_pack`: see
+  /// kGroupsPerPack.
+  ElementBlock(const Mesh& mesh, ElementKind kind, int part, std::vector<int> mesh_elements,
+               int groups_per_pack = 1);
 
   const int* group_nodes(int group) const {
     return nodes_.data() + static_cast<std::size_t>(group) * corners_ * kLanes;
   }
   /// 1 for real elements, 0 for padding.
-  Lanes lane_mask(int group) const;
+  template <class N>
+  N lane_mask(int pack) const;
+  /// Mean position of an element's corners, m.
+  Vec3 centre(std::span<const NodeRecord> nodes, int element) const;
 
  private:
   ElementKind kind_;
   int part_;
   int corners_;
+  int group_count_;
   std::vector<int> mesh_elements_;
   std::vector<int> nodes_;
 };

@@ -1,4 +1,4 @@
-// Numerical controls of a block: hourglass resistance, bulk viscosity, mass scaling.
+// Numerical controls of a block: hourglass resistance, bulk viscosity, mass scaling, precision.
 #pragma once
 
 namespace crosswalk::fe {
@@ -9,6 +9,9 @@ enum class HourglassForm {
   Stiffness  ///< Flanagan-Belytschko stiffness on the SHEAR modulus: k = q mu V (b_iI b_iI)
 };
 
+/// What an element's own arithmetic is done in, and its history kept in.
+enum class Precision { Double, Single };
+
 struct ElementControls {
   HourglassForm hourglass = HourglassForm::Stiffness;
   double hourglass_coefficient = 0.05;
@@ -17,6 +20,7 @@ struct ElementControls {
   /// Elements whose own step is smaller get mass added until it is not; 0: no mass scaling. s,
   /// before the safety factor of the solver.
   double minimum_step = 0;
+  Precision precision = Precision::Double;
 };
 
 }  // namespace crosswalk::fe

@@ -1,5 +1,6 @@
 #include "fe_node/element/hex8.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/error.h"
@@ -12,19 +13,19 @@ constexpr double kXi[8] = {-1, 1, 1, -1, -1, 1, 1, -1};
 constexpr double kEta[8] = {-1, -1, 1, 1, -1, -1, 1, 1};
 constexpr double kZeta[8] = {-1, -1, -1, -1, 1, 1, 1, 1};
 
-/// Undeformed shape of one element, written into one lane.
-void set_reference(const Vec3 (&x)[8], double density, int lane, HexReference<Lanes>& ref) {
+HexReference<double> reference_of(const Vec3 (&x)[8], double density) {
+  HexReference<double> ref;
   Vec3 B[8];
   hex8_volume_gradient(x, B);
   const double volume = hex8_volume(x);
   Mat3 metric = Mat3::Zero();
   for (const Vec3& b : B) metric += b * b.transpose() / (volume * volume);
-  ref.volume[lane] = volume;
-  ref.inverse_volume[lane] = 1.0 / volume;
-  ref.length[lane] = std::cbrt(volume);
-  ref.density[lane] = density;
+  ref.volume = volume;
+  ref.inverse_volume = 1.0 / volume;
+  ref.length = std::cbrt(volume);
+  ref.density = density;
   for (int node = 0; node < 8; ++node)
-    for (int i = 0; i < 3; ++i) ref.gradient[node][i][lane] = B[node][i];
+    for (int i = 0; i < 3; ++i) ref.gradient[node][i] = B[node][i];
   const double* signs[4][2] = {{kEta, kZeta}, {kXi, kZeta}, {kXi, kEta}, {nullptr, nullptr}};
   for (int a = 0; a < 4; ++a) {
     Vec3 sum = Vec3::Zero();
@@ -32,11 +33,17 @@ void set_reference(const Vec3 (&x)[8], double density, int lane, HexReference<La
       sum +=
           (a < 3 ? signs[a][0][node] * signs[a][1][node] : kXi[node] * kEta[node] * kZeta[node]) *
           x[node];
-    for (int i = 0; i < 3; ++i) ref.hourglass[a][i][lane] = sum[i];
+    for (int i = 0; i < 3; ++i) ref.hourglass[a][i] = sum[i];
   }
   const double entries[6] = {metric(0, 0), metric(1, 1), metric(2, 2),
                              metric(0, 1), metric(1, 2), metric(2, 0)};
-  for (int k = 0; k < 6; ++k) ref.metric[k][lane] = entries[k];
+  std::copy_n(entries, 6, ref.metric);
+  return ref;
+}
+
+double stable_step_squared(const HexReference<double>& ref, double bulk, double shear) {
+  const Tensor<double> identity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  return hex_stable_step_squared(ref, identity, 1.0, bulk, shear);
 }
 
 }  // namespace
@@ -71,43 +78,34 @@ double hex8_volume(const Vec3 (&x)[8]) {
   return volume;
 }
 
-HexShapes make_hex_shapes(const ElementBlock& block, const Mesh& mesh, double density,
-                          double bulk_modulus, double shear_modulus, double minimum_step) {
-  HexShapes shapes;
-  shapes.groups.resize(block.group_count());
+template <class N>
+HexShapes<N> make_hex_shapes(const ElementBlock& block, const Mesh& mesh, double density,
+                             double bulk_modulus, double shear_modulus, double minimum_step) {
+  HexShapes<N> shapes;
+  shapes.packs.resize(block.group_count() / kGroupsPerPack<N>);
+  shapes.volume.resize(block.element_count());
   shapes.added_density.resize(block.element_count());
-  Tensor<Lanes> identity;
-  for (int k = 0; k < 9; ++k) identity(k / 3, k % 3) = Lanes::Constant(k % 4 == 0 ? 1.0 : 0.0);
-  for (int group = 0; group < block.group_count(); ++group) {
-    HexReference<Lanes>& ref = shapes.groups[group];
-    for (int lane = 0; lane < kLanes; ++lane) {
-      Vec3 x[8];
-      for (int node = 0; node < 8; ++node) x[node] = mesh.position[block.node(group, node, lane)];
-      set_reference(x, density, lane, ref);
-      CW_ASSERT(ref.volume[lane] > 0);  // the model builder refuses such elements with their place
+  for (int slot = 0; slot < block.group_count() * kLanes; ++slot) {
+    Vec3 x[8];
+    for (int corner = 0; corner < 8; ++corner)
+      x[corner] = mesh.position[block.node(slot / kLanes, corner, slot % kLanes)];
+    HexReference<double> ref = reference_of(x, density);
+    CW_ASSERT(ref.volume > 0);  // the model builder refuses such elements with their place
+    const double squared = stable_step_squared(ref, bulk_modulus, shear_modulus);
+    ref.density *= std::max(minimum_step * minimum_step / squared, 1.0);
+    if (slot < block.element_count()) {
+      shapes.volume[slot] = ref.volume;
+      shapes.added_density[slot] = ref.density - density;
     }
-    const Lanes squared =
-        hex_stable_step_squared(ref, identity, constant<Lanes>(1), constant<Lanes>(bulk_modulus),
-                                constant<Lanes>(shear_modulus));
-    const Lanes lacking = larger(Lanes(minimum_step * minimum_step / squared), constant<Lanes>(1));
-    ref.density *= lacking;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const int element = group * kLanes + lane;
-      if (element < block.element_count())
-        shapes.added_density[element] = ref.density[lane] - density;
-    }
+    set_lane(ref, slot % kWidth<N>, shapes.packs[slot / kWidth<N>]);
   }
   return shapes;
 }
 
-void find_inverted(const Lanes& J, int first_element, int element_count, BlockSums& sums) {
-  if (sums.inverted_element >= 0) return;
-  for (int lane = kLanes - 1; lane >= 0; --lane)
-    if (!(J[lane] > 0)) {
-      sums.inverted_element = std::min(first_element + lane, element_count - 1);
-      sums.inverted_jacobian = J[lane];
-    }
-}
+template HexShapes<Lanes> make_hex_shapes(const ElementBlock&, const Mesh&, double, double, double,
+                                          double);
+template HexShapes<SingleLanes> make_hex_shapes(const ElementBlock&, const Mesh&, double, double,
+                                                double, double);
 
 std::unique_ptr<ElementBlock> make_hex8_block(const Mesh& mesh, int part, std::vector<int> elements,
                                               const SolidLaw& law,
@@ -115,7 +113,11 @@ std::unique_ptr<ElementBlock> make_hex8_block(const Mesh& mesh, int part, std::v
   return std::visit(
       [&](const auto& l) -> std::unique_ptr<ElementBlock> {
         using Law = std::decay_t<decltype(l)>;
-        return std::make_unique<Hex8Block<Law>>(mesh, part, std::move(elements), l, controls);
+        if (controls.precision == Precision::Single)
+          return std::make_unique<Hex8Block<SingleLanes, Law>>(mesh, part, std::move(elements), l,
+                                                               controls);
+        return std::make_unique<Hex8Block<Lanes, Law>>(mesh, part, std::move(elements), l,
+                                                       controls);
       },
       law);
 }

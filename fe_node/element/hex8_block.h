@@ -8,61 +8,68 @@
 namespace crosswalk::fe {
 
 /// Law-independent part: the undeformed shapes and added masses of a block.
+template <class N>
 struct HexShapes {
-  std::vector<HexReference<Lanes>, Eigen::aligned_allocator<HexReference<Lanes>>> groups;
+  std::vector<HexReference<N>, Eigen::aligned_allocator<HexReference<N>>> packs;
+  std::vector<double> volume;         ///< m3 per element
   std::vector<double> added_density;  ///< kg/m3 per element, by mass scaling
 };
-HexShapes make_hex_shapes(const ElementBlock& block, const Mesh& mesh, double density,
-                          double bulk_modulus, double shear_modulus, double minimum_step);
-inline HexNodes<Lanes> load_hex_nodes(std::span<const NodeRecord> nodes, const int* index) {
-  HexNodes<Lanes> out;
-  for (int node = 0; node < 8; ++node) {
-    load_positions(nodes, index + node * kLanes, out.x[node]);
-    load_velocities(nodes, index + node * kLanes, out.v[node]);
-  }
-  return out;
-}
-/// Finds the inverted element of a group of which some lane of J is not positive.
-void find_inverted(const Lanes& J, int first_element, int element_count, BlockSums& sums);
+template <class N>
+HexShapes<N> make_hex_shapes(const ElementBlock& block, const Mesh& mesh, double density,
+                             double bulk_modulus, double shear_modulus, double minimum_step);
 
-/// Sums of one group; padded lanes have mask 0.
-inline void add_to_sums(const HexAnswer<Lanes>& answer, const Lanes& mask, const StepContext& step,
-                        int group, int element_count, LaneSums& lanes, BlockSums& sums) {
-  const Lanes live = mask * answer.alive;
+/// Finds the inverted element of a pack of which some lane of J is not positive.
+template <class N>
+void find_inverted(const N& J, int first_element, int element_count, BlockSums& sums) {
+  if (sums.inverted_element >= 0) return;
+  for (int lane = kWidth<N> - 1; lane >= 0; --lane)
+    if (!(J[lane] > 0)) {
+      sums.inverted_element = std::min(first_element + lane, element_count - 1);
+      sums.inverted_jacobian = J[lane];
+    }
+}
+
+/// Sums of one pack; padded lanes have mask 0.
+template <class N>
+void add_to_sums(const HexAnswer<N>& answer, const N& mask, const StepContext& step, int pack,
+                 int element_count, LaneSums<N>& lanes, BlockSums& sums) {
+  const N live = mask * answer.alive;
   lanes.failed += mask - live;
   lanes.internal += answer.energy * mask;
   lanes.hourglass += answer.hourglass_stored * live;
   lanes.hourglass_dissipated += step.dt * (answer.hourglass_power * live);
   lanes.viscous_dissipated += step.dt * (answer.viscous_power * live);
-  const Lanes J = where_less(constant<Lanes>(0), live, answer.J, constant<Lanes>(1));
-  if (!all_positive(J)) find_inverted(J, group * kLanes, element_count, sums);
+  const N J = where_less(constant<N>(0), live, answer.J, constant<N>(1));
+  if (!all_positive(J)) find_inverted(J, pack * kWidth<N>, element_count, sums);
   if (step.wants_stable_step)
-    lanes.limit_step(where_less(constant<Lanes>(0), live, answer.stable_step_squared,
-                                constant<Lanes>(std::numeric_limits<double>::infinity())),
-                     group);
-}
-inline void store_corner_forces(const HexAnswer<Lanes>& answer, double* corner_forces) {
-  for (int node = 0; node < 8; ++node)
-    store_corner(answer.force[node][0], answer.force[node][1], answer.force[node][2],
-                 corner_forces + node * kLanes * kCornerStride);
+    lanes.limit_step(where_less(constant<N>(0), live, answer.stable_step_squared,
+                                constant<N>(std::numeric_limits<double>::infinity())),
+                     pack);
 }
 
-template <class Law>
+template <class N>
+void store_corner_forces(const HexAnswer<N>& answer, double* corner_forces) {
+  constexpr std::size_t kCorner = std::size_t{kLanes} * kCornerStride;
+  for (int node = 0; node < 8; ++node)
+    store_corner(answer.force[node][0], answer.force[node][1], answer.force[node][2],
+                 corner_forces + node * kCorner, 8 * kCorner);
+}
+
+template <class N, class Law>
 class Hex8Block final : public ElementBlock {
  public:
   Hex8Block(const Mesh& mesh, int part, std::vector<int> elements, const Law& law,
             const ElementControls& controls)
-      : ElementBlock(mesh, ElementKind::Hex8, part, std::move(elements)),
+      : ElementBlock(mesh, ElementKind::Hex8, part, std::move(elements), kGroupsPerPack<N>),
         law_(law),
         controls_(controls),
-        shapes_(make_hex_shapes(*this, mesh, law.density, law.bulk_modulus(), law.shear_modulus(),
-                                controls.minimum_step)) {}
+        shapes_(make_hex_shapes<N>(*this, mesh, law.density, law.bulk_modulus(),
+                                   law.shear_modulus(), controls.minimum_step)) {}
 
-  int history_per_group() const override { return law_.history_size() * kLanes; }
+  int history_per_group() const override { return pack_history() * kLanes / kGroupsPerPack<N>; }
 
   void initialise(std::span<double> history) const override {
-    for (int group = 0; group < group_count(); ++group)
-      law_.initialise(group_history(history, group));
+    for (int pack = 0; pack < pack_count(); ++pack) law_.initialise(history_of(history, pack));
   }
 
   double corner_mass(int element) const override {
@@ -72,7 +79,7 @@ class Hex8Block final : public ElementBlock {
     return shapes_.added_density[element] * element_volume(element);
   }
   double element_volume(int element) const override {
-    return shapes_.groups[element / kLanes].volume[element % kLanes];
+    return shapes_.volume[element];
   }
   double density() const override { return law_.density; }
 
@@ -80,62 +87,62 @@ class Hex8Block final : public ElementBlock {
   CW_FLATTEN void forces(const StepContext& step, std::span<double> history,
                          std::span<double> corner_forces, std::span<double> /*corner_moments*/,
                          int first, int last, BlockSums& sums) const override {
-    LaneSums lanes;
+    LaneSums<N> lanes;
     decltype(auto) law = ready_law(law_, step.dt);
-    lanes.step_squared = Lanes::Constant(sums.stable_step * sums.stable_step);
-    for (int group = first; group < last; ++group) {
-      if (group + 1 < group_count()) fetch_ahead(group + 1);
-      const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));
-      const HexAnswer<Lanes> answer = hex8_forces(
-          shapes_.groups[group], nodes, law, controls_, step.dt, group_history(history, group),
+    lanes.step_squared = constant<N>(sums.stable_step * sums.stable_step);
+    for (int group = first; group < last; group += kGroupsPerPack<N>) {
+      const int pack = group / kGroupsPerPack<N>;
+      if (pack + 1 < pack_count()) fetch_ahead(pack + 1);
+      HexNodes<N> nodes;
+      load_corners(step.nodes, group_nodes(group), nodes.x, nodes.v);
+      const HexAnswer<N> answer = hex8_forces(
+          shapes_.packs[pack], nodes, law, controls_, step.dt, history_of(history, pack),
           step.wants_stable_step ? smallest(lanes.step_squared) : 0.0);
       store_corner_forces(answer, corner_forces.data() + corner_slot(group - first, 0, 0));
-      add_to_sums(answer, lane_mask(group), step, group, element_count(), lanes, sums);
+      add_to_sums(answer, lane_mask<N>(pack), step, pack, element_count(), lanes, sums);
     }
     lanes.book(sums);
   }
 
   bool is_alive(std::span<const double> history, int element) const override {
-    const double* group = history.data() + std::size_t(history_per_group()) * (element / kLanes);
     if constexpr (requires { Law::kAlive; })
-      return group[Law::kAlive * kLanes + element % kLanes] > 0;
+      return history_of(history, element / kWidth<N>)[Law::kAlive][element % kWidth<N>] > 0;
     return true;
   }
 
   double initial_stable_step(int element) const override {
-    const HexReference<Lanes>& ref = shapes_.groups[element / kLanes];
-    Tensor<Lanes> identity;
-    for (int k = 0; k < 9; ++k) identity(k / 3, k % 3) = Lanes::Constant(k % 4 == 0 ? 1.0 : 0.0);
-    const Lanes squared = hex_stable_step_squared(ref, identity, constant<Lanes>(1),
-                                                  constant<Lanes>(law_.bulk_modulus()),
-                                                  constant<Lanes>(law_.shear_modulus()));
-    return std::sqrt(squared[element % kLanes]);
+    const HexReference<N>& ref = shapes_.packs[element / kWidth<N>];
+    Tensor<N> identity;
+    for (int k = 0; k < 9; ++k) identity(k / 3, k % 3) = constant<N>(k % 4 == 0 ? 1.0 : 0.0);
+    const N squared =
+        hex_stable_step_squared(ref, identity, constant<N>(1), constant<N>(law_.bulk_modulus()),
+                                constant<N>(law_.shear_modulus()));
+    return std::sqrt(squared[element % kWidth<N>]);
   }
 
   ElementSample sample(const StepContext& step, std::span<const double> history,
                        int element) const override {
-    const int group = element / kLanes, lane = element % kLanes;
-    const HexNodes<Lanes> nodes = load_hex_nodes(step.nodes, group_nodes(group));
-    const HexReference<Lanes>& ref = shapes_.groups[group];
-    std::vector<Lanes, Eigen::aligned_allocator<Lanes>> copy(law_.history_size() + 1);
-    std::copy_n(history.data() + std::size_t(history_per_group()) * group, history_per_group(),
-                copy.front().data());
-    SolidStep<Lanes> still;
+    const int pack = element / kWidth<N>, lane = element % kWidth<N>;
+    HexNodes<N> nodes;
+    load_corners(step.nodes, group_nodes(pack * kGroupsPerPack<N>), nodes.x, nodes.v);
+    const HexReference<N>& ref = shapes_.packs[pack];
+    const N* own = history_of(history, pack);
+    std::vector<N, Eigen::aligned_allocator<N>> copy(own, own + law_.history_size());
+    SolidStep<N> still;
     still.F = gradient_of(ref, nodes.x);
     still.F_rate = gradient_of(ref, nodes.v);
     still.J = determinant(still.F);
     still.F_inverse = inverse(still.F, still.J);
-    const SolidAnswer<Lanes> material = law_.update(still, copy.data());
-    const Symmetric<Lanes> sigma = cauchy_stress(material.P, still.F, still.J);
+    const SolidAnswer<N> material = law_.update(still, copy.data());
+    const Symmetric<N> sigma = cauchy_stress(material.P, still.F, still.J);
 
     ElementSample out;
-    out.volume = ref.volume[lane];
+    out.volume = element_volume(element);
     out.energy = material.energy[lane] * out.volume;
     out.is_alive = material.alive[lane] > 0;
     if constexpr (requires { Law::kPlasticStrain; })
       out.plastic_strain = copy[Law::kPlasticStrain][lane];
-    for (int node = 0; node < 8; ++node)
-      for (int i = 0; i < 3; ++i) out.centre[i] += 0.125 * nodes.x[node][i][lane];
+    out.centre = centre(step.nodes, element);
     for (int k = 0; k < 9; ++k) out.deformation(k / 3, k % 3) = still.F(k / 3, k % 3)[lane];
     out.stress << sigma.xx[lane], sigma.xy[lane], sigma.zx[lane], sigma.xy[lane], sigma.yy[lane],
         sigma.yz[lane], sigma.zx[lane], sigma.yz[lane], sigma.zz[lane];
@@ -143,18 +150,26 @@ class Hex8Block final : public ElementBlock {
   }
 
  private:
-  /// Shapes cross pages, where the processor's own prefetching stops.
-  void fetch_ahead(int group) const {
-    const auto* shape = reinterpret_cast<const char*>(&shapes_.groups[group]);
-    for (std::size_t i = 0; i < sizeof(HexReference<Lanes>); i += 64) __builtin_prefetch(shape + i);
+  int pack_count() const { return group_count() / kGroupsPerPack<N>; }
+  /// Whole groups' worth.
+  int pack_history() const {
+    return (law_.history_size() + kGroupsPerPack<N> - 1) / kGroupsPerPack<N> * kGroupsPerPack<N>;
   }
-  Lanes* group_history(std::span<double> history, int group) const {
-    return reinterpret_cast<Lanes*>(history.data() + std::size_t(history_per_group()) * group);
+  /// Shapes cross pages, where the processor's own prefetching stops.
+  void fetch_ahead(int pack) const {
+    const auto* shape = reinterpret_cast<const char*>(&shapes_.packs[pack]);
+    for (std::size_t i = 0; i < sizeof(HexReference<N>); i += 64) __builtin_prefetch(shape + i);
+  }
+  N* history_of(std::span<double> history, int pack) const {
+    return reinterpret_cast<N*>(history.data()) + std::size_t(pack_history()) * pack;
+  }
+  const N* history_of(std::span<const double> history, int pack) const {
+    return reinterpret_cast<const N*>(history.data()) + std::size_t(pack_history()) * pack;
   }
 
   Law law_;
   ElementControls controls_;
-  HexShapes shapes_;
+  HexShapes<N> shapes_;
 };
 
 }  // namespace crosswalk::fe

@@ -85,7 +85,7 @@ struct EigenvalueBound {
     // y^3 - 3 p2 y - det = 0 for the deviator's eigenvalue y, p2 = third_j2; y <= 2 sqrt(p2).
     N y = deviator;
     for (int i = 0; i < 2; ++i) {
-      const N slope = 3.0 * (y * y - third_j2) + 1e-300;
+      const N slope = 3.0 * (y * y - third_j2) + kTiny<N>;
       y -= (y * (y * y - 3.0 * third_j2) - det) / slope;
     }
     return mean + y;

@@ -37,7 +37,7 @@ void load_rows(RowOf row_of, Lanes& x, Lanes& y, Lanes& z) {
         _mm256_permute2f128_pd(_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d), 0x20);
     part[half][2] = _mm256_permute2f128_pd(ab, cd, 0x31);
   }
-  const auto whole = [&part](int axis) -> LaneRegister {
+  const auto whole = [&part](int axis) -> DoubleRegister {
 #ifdef __AVX512F__
     return _mm512_insertf64x4(_mm512_castpd256_pd512(part[0][axis]), part[1][axis], 1);
 #else
@@ -50,9 +50,74 @@ void load_rows(RowOf row_of, Lanes& x, Lanes& y, Lanes& z) {
 #else
   for (int lane = 0; lane < kLanes; ++lane) {
     const double* row = row_of(lane);
-    x[lane] = row[0];
-    y[lane] = row[1];
-    z[lane] = row[2];
+    x.set(lane, row[0]);
+    y.set(lane, row[1]);
+    z.set(lane, row[2]);
+  }
+#endif
+}
+
+/// Two registers of doubles rounded into one.
+inline SingleLanes joined(const Lanes& first, const Lanes& second) {
+#if defined(__AVX512F__)
+  return SingleRegister(_mm512_castpd_ps(
+      _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_castps_pd(_mm512_cvtpd_ps(first.v))),
+                         _mm256_castps_pd(_mm512_cvtpd_ps(second.v)), 1)));
+#elif defined(__AVX__)
+  return SingleRegister(_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(first.v)),
+                                             _mm256_cvtpd_ps(second.v), 1));
+#else
+  SingleLanes both;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    both.set(lane, first[lane]);
+    both.set(kLanes + lane, second[lane]);
+  }
+  return both;
+#endif
+}
+
+/// The first three numbers of rows of four doubles less those of other rows, as single lanes:
+/// nothing is lost of what near numbers differ by.
+template <class RowOf, class OriginOf>
+void load_differences(RowOf row_of, OriginOf origin_of, SingleLanes& x, SingleLanes& y,
+                      SingleLanes& z) {
+#ifdef __AVX__
+  constexpr int kEights = kWidth<SingleLanes> / 8;
+  const auto difference = [&](int lane) {
+    return _mm256_cvtpd_ps(
+        _mm256_sub_pd(_mm256_load_pd(row_of(lane)), _mm256_load_pd(origin_of(lane))));
+  };
+  __m256 part[kEights][3];
+  for (int eight = 0; eight < kEights; ++eight) {
+    __m256 rows[4];  // of lanes k and k + 4
+    for (int k = 0; k < 4; ++k)
+      rows[k] = _mm256_insertf128_ps(_mm256_castps128_ps256(difference(8 * eight + k)),
+                                     difference(8 * eight + k + 4), 1);
+    const __m256 xy01 = _mm256_unpacklo_ps(rows[0], rows[1]),
+                 xy23 = _mm256_unpacklo_ps(rows[2], rows[3]);
+    part[eight][0] = _mm256_shuffle_ps(xy01, xy23, 0x44);
+    part[eight][1] = _mm256_shuffle_ps(xy01, xy23, 0xee);
+    part[eight][2] = _mm256_shuffle_ps(_mm256_unpackhi_ps(rows[0], rows[1]),
+                                       _mm256_unpackhi_ps(rows[2], rows[3]), 0x44);
+  }
+  const auto whole = [&part](int axis) -> SingleRegister {
+#ifdef __AVX512F__
+    return _mm512_castpd_ps(
+        _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_castps_pd(part[0][axis])),
+                           _mm256_castps_pd(part[1][axis]), 1));
+#else
+    return part[0][axis];
+#endif
+  };
+  x = whole(0);
+  y = whole(1);
+  z = whole(2);
+#else
+  for (int lane = 0; lane < kWidth<SingleLanes>; ++lane) {
+    const double *row = row_of(lane), *origin = origin_of(lane);
+    x.set(lane, row[0] - origin[0]);
+    y.set(lane, row[1] - origin[1]);
+    z.set(lane, row[2] - origin[2]);
   }
 #endif
 }
@@ -63,14 +128,55 @@ inline void load_positions(std::span<const NodeRecord> nodes, const int* index, 
 inline void load_velocities(std::span<const NodeRecord> nodes, const int* index, Lanes (&v)[3]) {
   load_rows<4>([&](int lane) { return nodes[index[lane]].v; }, v[0], v[1], v[2]);
 }
-/// Components of vectors of nodes.
-inline void load_vectors(std::span<const Vec3> vectors, const int* index, Lanes& x, Lanes& y,
-                         Lanes& z) {
-  load_rows<3>([&](int lane) { return vectors[index[lane]].data(); }, x, y, z);
+
+/// Positions and velocities of the corners of the elements in one register. `index`: their nodes,
+/// kLanes of each corner, group after group. Single lanes are counted from the first corner, which
+/// changes nothing that an element asks of them.
+template <int kCorners>
+void load_corners(std::span<const NodeRecord> nodes, const int* index, Lanes (&x)[kCorners][3],
+                  Lanes (&v)[kCorners][3]) {
+  for (int corner = 0; corner < kCorners; ++corner) {
+    load_positions(nodes, index + corner * kLanes, x[corner]);
+    load_velocities(nodes, index + corner * kLanes, v[corner]);
+  }
+}
+template <int kCorners>
+void load_corners(std::span<const NodeRecord> nodes, const int* index,
+                  SingleLanes (&x)[kCorners][3], SingleLanes (&v)[kCorners][3]) {
+  const auto node = [&](int corner, int lane) -> const NodeRecord& {
+    return nodes[index[(lane / kLanes * kCorners + corner) * kLanes + lane % kLanes]];
+  };
+  for (int i = 0; i < 3; ++i) x[0][i] = v[0][i] = SingleLanes::Zero();
+  for (int corner = 1; corner < kCorners; ++corner) {
+    load_differences([&](int lane) { return node(corner, lane).x; },
+                     [&](int lane) { return node(0, lane).x; }, x[corner][0], x[corner][1],
+                     x[corner][2]);
+    load_differences([&](int lane) { return node(corner, lane).v; },
+                     [&](int lane) { return node(0, lane).v; }, v[corner][0], v[corner][1],
+                     v[corner][2]);
+  }
+}
+/// The vectors of the corners of the elements in one register, as load_corners().
+template <int kCorners>
+void load_corner_vectors(std::span<const Vec3> vectors, const int* index, Lanes (&a)[kCorners][3]) {
+  for (int corner = 0; corner < kCorners; ++corner)
+    load_rows<3>([&](int lane) { return vectors[index[corner * kLanes + lane]].data(); },
+                 a[corner][0], a[corner][1], a[corner][2]);
+}
+template <int kCorners>
+void load_corner_vectors(std::span<const Vec3> vectors, const int* index,
+                         SingleLanes (&a)[kCorners][3]) {
+  Lanes first[kCorners][3], second[kCorners][3];
+  load_corner_vectors(vectors, index, first);
+  load_corner_vectors(vectors, index + kCorners * kLanes, second);
+  for (int corner = 0; corner < kCorners; ++corner)
+    for (int i = 0; i < 3; ++i) a[corner][i] = joined(first[corner][i], second[corner][i]);
 }
 
-/// Writes one corner of a lane group: `to` is the corner's first double, aligned like Lanes.
-inline void store_corner(const Lanes& x, const Lanes& y, const Lanes& z, double* to) {
+/// Writes one corner of the elements in one register. `to`: the corner's first double in their
+/// first group, aligned like Lanes; `group_stride`: doubles from there to the next group's.
+inline void store_corner(const Lanes& x, const Lanes& y, const Lanes& z, double* to,
+                         std::size_t /*group_stride*/) {
 #ifdef __AVX__
   for (int half = 0; half < kLanes / 4; ++half) {
 #ifdef __AVX512F__
@@ -96,6 +202,45 @@ inline void store_corner(const Lanes& x, const Lanes& y, const Lanes& z, double*
     to[lane * kCornerStride + 1] = y[lane];
     to[lane * kCornerStride + 2] = z[lane];
     to[lane * kCornerStride + 3] = 0;
+  }
+#endif
+}
+
+inline void store_corner(const SingleLanes& x, const SingleLanes& y, const SingleLanes& z,
+                         double* to, std::size_t group_stride) {
+#ifdef __AVX__
+  for (int eight = 0; eight < kWidth<SingleLanes> / 8; ++eight) {
+#ifdef __AVX512F__
+    const auto part = [eight](const SingleLanes& a) -> __m256 {
+      const __m512d whole = _mm512_castps_pd(a.v);
+      return _mm256_castpd_ps(eight == 0 ? _mm512_castpd512_pd256(whole)
+                                         : _mm512_extractf64x4_pd(whole, 1));
+    };
+#else
+    const auto part = [](const SingleLanes& a) -> __m256 { return a.v; };
+#endif
+    const __m256 zero = _mm256_setzero_ps();
+    const __m256 xy01 = _mm256_unpacklo_ps(part(x), part(y)),
+                 xy23 = _mm256_unpackhi_ps(part(x), part(y)),
+                 z01 = _mm256_unpacklo_ps(part(z), zero), z23 = _mm256_unpackhi_ps(part(z), zero);
+    const __m256 rows[4] = {// of lanes k and k + 4
+                            _mm256_shuffle_ps(xy01, z01, 0x44), _mm256_shuffle_ps(xy01, z01, 0xee),
+                            _mm256_shuffle_ps(xy23, z23, 0x44), _mm256_shuffle_ps(xy23, z23, 0xee)};
+    const auto place = [&](int lane) {
+      return to + lane / kLanes * group_stride + std::size_t(lane % kLanes) * kCornerStride;
+    };
+    for (int k = 0; k < 4; ++k) {
+      _mm256_store_pd(place(8 * eight + k), _mm256_cvtps_pd(_mm256_castps256_ps128(rows[k])));
+      _mm256_store_pd(place(8 * eight + k + 4), _mm256_cvtps_pd(_mm256_extractf128_ps(rows[k], 1)));
+    }
+  }
+#else
+  for (int lane = 0; lane < kWidth<SingleLanes>; ++lane) {
+    double* row = to + lane / kLanes * group_stride + std::size_t(lane % kLanes) * kCornerStride;
+    row[0] = x[lane];
+    row[1] = y[lane];
+    row[2] = z[lane];
+    row[3] = 0;
   }
 #endif
 }

@@ -7,19 +7,20 @@ namespace {
 
 constexpr int kStress = 5;  // xx yy xy yz zx, in front of the law's own history
 
+template <class N>
 struct Accumulator {
-  const SectionVector& increment;
-  const Lanes& thickness;
-  const Lanes& shear_factor;
+  const SectionVector<N>& increment;
+  const N& thickness;
+  const N& shear_factor;
   double dt;
-  SectionAnswer answer;
+  SectionAnswer<N> answer;
 
   // Flattened, with sums of its own: else they would go through memory, as the history might alias
   // them.
   template <class Law>
-  CW_FLATTEN Lanes* layer(const Law& law, const std::vector<ShellPoint>& points, Lanes* history) {
+  CW_FLATTEN N* layer(const Law& law, const std::vector<ShellPoint>& points, N* history) {
     const int size = kStress + law.history_size();
-    SectionAnswer sum = answer;
+    SectionAnswer<N> sum = answer;
     for (const ShellPoint& point : points) {
       add_point(law, point, history, sum);
       history += size;
@@ -29,19 +30,18 @@ struct Accumulator {
   }
 
   template <class Law>
-  void add_point(const Law& law, const ShellPoint& point, Lanes* history,
-                 SectionAnswer& sum) const {
-    const Lanes z = point.position * thickness;
-    PlaneStep<Lanes> step;
+  void add_point(const Law& law, const ShellPoint& point, N* history, SectionAnswer<N>& sum) const {
+    const N z = point.position * thickness;
+    PlaneStep<N> step;
     step.dt = dt;
     step.strain = {increment.xx + z * increment.kxx, increment.yy + z * increment.kyy,
                    increment.xy + z * increment.kxy, increment.yz, increment.zx};
     step.stress = {history[0], history[1], history[2], history[3], history[4]};
-    const PlaneAnswer<Lanes> point_answer = law.update(step, history + kStress);
-    const PlaneTensor<Lanes>& s = point_answer.stress;
-    const PlaneTensor<Lanes>& e = step.strain;
+    const PlaneAnswer<N> point_answer = law.update(step, history + kStress);
+    const PlaneTensor<N>& s = point_answer.stress;
+    const PlaneTensor<N>& e = step.strain;
 
-    const Lanes share = point.weight * thickness, shear_share = share * shear_factor;
+    const N share = point.weight * thickness, shear_share = share * shear_factor;
     sum.work += 0.5 * (share * ((s.xx + history[0]) * e.xx + (s.yy + history[1]) * e.yy +
                                 (s.xy + history[2]) * e.xy) +
                        shear_share * ((s.yz + history[3]) * e.yz + (s.zx + history[4]) * e.zx));
@@ -50,7 +50,7 @@ struct Accumulator {
     history[2] = s.xy;
     history[3] = s.yz;
     history[4] = s.zx;
-    SectionVector& n = sum.resultants;
+    SectionVector<N>& n = sum.resultants;
     n.xx += share * s.xx;
     n.yy += share * s.yy;
     n.xy += share * s.xy;
@@ -75,12 +75,13 @@ int section_history(const ShellSection& section) {
   return size;
 }
 
-void initialise_section(const ShellSection& section, Lanes* history) {
+template <class N>
+void initialise_section(const ShellSection& section, N* history) {
   for (const ShellLayer& layer : section.layers)
     std::visit(
         [&](const auto& law) {
           for (std::size_t i = 0; i < layer.points.size(); ++i) {
-            for (int k = 0; k < kStress; ++k) history[k] = Lanes::Zero();
+            for (int k = 0; k < kStress; ++k) history[k] = constant<N>(0);
             law.initialise(history + kStress);
             history += kStress + law.history_size();
           }
@@ -88,11 +89,12 @@ void initialise_section(const ShellSection& section, Lanes* history) {
         layer.law);
 }
 
-SectionAnswer integrate_section(const ShellSection& section, const SectionVector& increment,
-                                const Lanes& thickness, const Lanes& shear_factor, double dt,
-                                Lanes* history) {
-  const Lanes o = Lanes::Zero();
-  Accumulator accumulator{
+template <class N>
+SectionAnswer<N> integrate_section(const ShellSection& section, const SectionVector<N>& increment,
+                                   const N& thickness, const N& shear_factor, double dt,
+                                   N* history) {
+  const N o = constant<N>(0);
+  Accumulator<N> accumulator{
       increment, thickness, shear_factor, dt, {{o, o, o, o, o, o, o, o}, o, o, o, o}};
   for (const ShellLayer& layer : section.layers)
     history = std::visit(
@@ -101,7 +103,8 @@ SectionAnswer integrate_section(const ShellSection& section, const SectionVector
   return accumulator.answer;
 }
 
-SectionSample sample_section(const ShellSection& section, const Lanes* history, int lane) {
+template <class N>
+SectionSample sample_section(const ShellSection& section, const N* history, int lane) {
   SectionSample sample;
   for (const ShellLayer& layer : section.layers)
     std::visit(
@@ -121,5 +124,16 @@ SectionSample sample_section(const ShellSection& section, const Lanes* history, 
         layer.law);
   return sample;
 }
+
+template void initialise_section(const ShellSection&, Lanes*);
+template void initialise_section(const ShellSection&, SingleLanes*);
+template SectionAnswer<Lanes> integrate_section(const ShellSection&, const SectionVector<Lanes>&,
+                                                const Lanes&, const Lanes&, double, Lanes*);
+template SectionAnswer<SingleLanes> integrate_section(const ShellSection&,
+                                                      const SectionVector<SingleLanes>&,
+                                                      const SingleLanes&, const SingleLanes&,
+                                                      double, SingleLanes*);
+template SectionSample sample_section(const ShellSection&, const Lanes*, int);
+template SectionSample sample_section(const ShellSection&, const SingleLanes*, int);
 
 }  // namespace crosswalk::fe

@@ -7,28 +7,32 @@
 
 namespace crosswalk::fe {
 
+template <class N>
 struct SectionAnswer {
-  SectionVector resultants;
-  Lanes work;      ///< J/m2, of this step
-  Lanes thinning;  ///< mean normal strain increment
-  Lanes alive;     ///< 0 when every point has failed
-  Lanes intact;    ///< share of the elastic stiffness in the plane that cracks have left
+  SectionVector<N> resultants;
+  N work;      ///< J/m2, of this step
+  N thinning;  ///< mean normal strain increment
+  N alive;     ///< 0 when every point has failed
+  N intact;    ///< share of the elastic stiffness in the plane that cracks have left
 };
 
-/// Lanes of history a section keeps.
+/// Numbers of history a section keeps.
 int section_history(const ShellSection& section);
-void initialise_section(const ShellSection& section, Lanes* history);
+template <class N>
+void initialise_section(const ShellSection& section, N* history);
 
 /// `shear_factor` includes any reduction of the element's.
-SectionAnswer integrate_section(const ShellSection& section, const SectionVector& increment,
-                                const Lanes& thickness, const Lanes& shear_factor, double dt,
-                                Lanes* history);
+template <class N>
+SectionAnswer<N> integrate_section(const ShellSection& section, const SectionVector<N>& increment,
+                                   const N& thickness, const N& shear_factor, double dt,
+                                   N* history);
 
 /// Mean stress and largest plastic strain of one lane, local axes.
 struct SectionSample {
   PlaneTensor<double> stress{};
   double plastic_strain = 0;
 };
-SectionSample sample_section(const ShellSection& section, const Lanes* history, int lane);
+template <class N>
+SectionSample sample_section(const ShellSection& section, const N* history, int lane);
 
 }  // namespace crosswalk::fe

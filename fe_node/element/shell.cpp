@@ -31,23 +31,23 @@ ShellMatter::ShellMatter(const ShellSection& of_section, const ElementControls& 
 
 namespace {
 
-/// Per lane group in front of the element's history.
+/// Per pack in front of the element's history.
 enum Header { kEnergy, kHourglassEnergy, kThickness, kAlive, kHeader };
 
-template <int kCorners>
+template <class N, int kCorners>
 struct ShellGeometry {
-  Lanes3 x[kCorners], v[kCorners], spin[kCorners];
+  Lanes3<N> x[kCorners], v[kCorners], spin[kCorners];
 };
 
 /// An element that has failed counts as a square at rest: its nodes go on without it and may fold
 /// it to nothing.
-template <int kCorners>
-void rest_where_failed(const Lanes& alive, ShellGeometry<kCorners>& g) {
+template <class N, int kCorners>
+void rest_where_failed(const N& alive, ShellGeometry<N, kCorners>& g) {
   constexpr double kSquare[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  const auto rest = [&alive](Lanes3& a, const double(&b)[3]) {
-    Lanes* of[] = {&a.x, &a.y, &a.z};
+  const auto rest = [&alive](Lanes3<N>& a, const double(&b)[3]) {
+    N* of[] = {&a.x, &a.y, &a.z};
     for (int k = 0; k < 3; ++k)
-      *of[k] = where_less(Lanes::Zero(), alive, *of[k], Lanes::Constant(b[k]));
+      *of[k] = where_less(constant<N>(0), alive, *of[k], constant<N>(b[k]));
   };
   for (int corner = 0; corner < kCorners; ++corner) {
     rest(g.x[corner], kSquare[corner]);
@@ -56,9 +56,10 @@ void rest_where_failed(const Lanes& alive, ShellGeometry<kCorners>& g) {
   }
 }
 
-template <class Element>
+template <class N, template <class> class ElementOf>
 class ShellBlock final : public ElementBlock {
  public:
+  using Element = ElementOf<N>;
   static constexpr int kCorners = Element::kCorners;
 
   ShellBlock(const Mesh& mesh, ElementKind kind, int part, std::vector<int> elements,
@@ -67,7 +68,7 @@ class ShellBlock final : public ElementBlock {
 
   int points() const override { return Element::kPoints; }
   bool has_moments() const override { return matter_.is_bending(); }
-  int history_per_group() const override { return (kHeader + element_.history_size()) * kLanes; }
+  int history_per_group() const override { return pack_history() * kLanes / kGroupsPerPack<N>; }
   void initialise(std::span<double> history) const override;
   double corner_mass(int element) const override { return mass_[element] / kCorners; }
   double corner_inertia(int element) const override {
@@ -81,38 +82,57 @@ class ShellBlock final : public ElementBlock {
               BlockSums& sums) const override;
   double initial_stable_step(int element) const override { return step_[element]; }
   bool is_alive(std::span<const double> history, int element) const override {
-    return history[static_cast<std::size_t>(element / kLanes) * history_per_group() +
-                   kAlive * kLanes + element % kLanes] > 0.5;
+    return history_of(history, element / kWidth<N>)[kAlive][element % kWidth<N>] > 0.5;
   }
   ElementSample sample(const StepContext& step, std::span<const double> history,
                        int element) const override;
 
  private:
-  ShellGeometry<kCorners> load(const StepContext& step, int group) const;
-  ShellMotion<kCorners> motion(const ShellGeometry<kCorners>& g, double dt) const;
-  using PerElement = std::vector<double, Eigen::aligned_allocator<double>>;  ///< padded like groups
-  static const Lanes& lanes_of(const PerElement& values, int group) {
-    return *reinterpret_cast<const Lanes*>(values.data() + std::size_t(group) * kLanes);
+  /// Of a pack: mass with what scaling added, kg, and squared gyration, m2.
+  struct Weight {
+    N mass, gyration;
+  };
+
+  int pack_count() const { return group_count() / kGroupsPerPack<N>; }
+  /// Whole groups' worth.
+  int pack_history() const {
+    const int used = kHeader + element_.history_size();
+    return (used + kGroupsPerPack<N> - 1) / kGroupsPerPack<N> * kGroupsPerPack<N>;
   }
-  /// dt^2 = 4 / omega^2
-  Lanes stable_step_squared(const ShellShape<kCorners>& shape, const Lanes& thickness,
-                            const Lanes& mass, const Lanes& gyration) const {
-    return 4.0 * mass /
-           (kCorners * shape.area * thickness * element_.stiffness(shape, thickness, gyration));
+  N* history_of(std::span<double> history, int pack) const {
+    return reinterpret_cast<N*>(history.data()) + std::size_t(pack_history()) * pack;
   }
-  void find_inverted(const Lanes& area, int group, BlockSums& sums) const;
+  const N* history_of(std::span<const double> history, int pack) const {
+    return reinterpret_cast<const N*>(history.data()) + std::size_t(pack_history()) * pack;
+  }
+  ShellGeometry<N, kCorners> load(const StepContext& step, int pack) const;
+  ShellMotion<N, kCorners> motion(const ShellGeometry<N, kCorners>& g, double dt) const;
+  /// Sets what belongs to one element, from its undeformed corners.
+  void set_element(int element, const Lanes3<double> (&x)[kCorners]);
+  void find_inverted(const N& area, int pack, BlockSums& sums) const;
 
   ShellMatter matter_;
   Element element_;
-  PerElement thickness_, area_, mass_, gyration_, step_;  ///< mass with what scaling added
-  PerElement added_;                                      ///< kg
+  std::vector<Weight, Eigen::aligned_allocator<Weight>> weights_;
+  /// Per element, the padding's included: m, m2, kg with what scaling added, m2, s, kg.
+  std::vector<double> thickness_, area_, mass_, gyration_, step_, added_;
 };
 
-template <class Element>
-ShellBlock<Element>::ShellBlock(const Mesh& mesh, ElementKind kind, int part,
-                                std::vector<int> elements, const ShellSection& section,
-                                const ElementControls& controls, std::span<const double> thickness)
-    : ElementBlock(mesh, kind, part, std::move(elements)),
+/// dt^2 = 4 / omega^2
+template <class N, class Element>
+N stable_step_squared(const Element& element, const ShellShape<N, Element::kCorners>& shape,
+                      const N& thickness, const N& mass, const N& gyration) {
+  return 4.0 * mass /
+         (Element::kCorners * shape.area * thickness *
+          element.stiffness(shape, thickness, gyration));
+}
+
+template <class N, template <class> class ElementOf>
+ShellBlock<N, ElementOf>::ShellBlock(const Mesh& mesh, ElementKind kind, int part,
+                                     std::vector<int> elements, const ShellSection& section,
+                                     const ElementControls& controls,
+                                     std::span<const double> thickness)
+    : ElementBlock(mesh, kind, part, std::move(elements), kGroupsPerPack<N>),
       matter_(section, controls),
       element_(matter_) {
   const std::size_t padded = std::size_t(group_count()) * kLanes;
@@ -122,102 +142,107 @@ ShellBlock<Element>::ShellBlock(const Mesh& mesh, ElementKind kind, int part,
     std::copy(thickness.begin(), thickness.end(), thickness_.begin());
     std::fill(thickness_.begin() + element_count(), thickness_.end(), thickness.back());
   }
-  for (PerElement* values : {&area_, &mass_, &gyration_, &step_, &added_}) values->resize(padded);
-  for (int group = 0; group < group_count(); ++group) {
-    Lanes3 x[kCorners];
-    for (int corner = 0; corner < kCorners; ++corner)
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const Vec3& p = mesh.position[node(group, corner, lane)];
-        x[corner].x[lane] = p.x();
-        x[corner].y[lane] = p.y();
-        x[corner].z[lane] = p.z();
-      }
-    const ShellShape<kCorners> shape = shell_shape(x);
-    const Lanes t = lanes_of(thickness_, group);
-    const Lanes mass = matter_.density * shape.area * t,
-                gyration = (shape.area + t * t) * (1.0 / 12);
-    const Lanes step2 = stable_step_squared(shape, t, mass, gyration);
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const int element = group * kLanes + lane;
-      const double step = std::sqrt(step2[lane]);
-      const double scaling = std::max(1.0, controls.minimum_step / step);
-      area_[element] = shape.area[lane];
-      added_[element] = mass[lane] * (scaling * scaling - 1);
-      mass_[element] = mass[lane] + added_[element];
-      gyration_[element] = gyration[lane];
-      step_[element] = step * scaling;
+  for (std::vector<double>* values : {&area_, &mass_, &gyration_, &step_, &added_})
+    values->resize(padded);
+  weights_.resize(pack_count());
+  for (int slot = 0; slot < group_count() * kLanes; ++slot) {
+    Lanes3<double> x[kCorners];
+    for (int corner = 0; corner < kCorners; ++corner) {
+      const Vec3& p = mesh.position[node(slot / kLanes, corner, slot % kLanes)];
+      x[corner] = {p.x(), p.y(), p.z()};
     }
+    set_element(slot, x);
   }
 }
 
-template <class Element>
-void ShellBlock<Element>::initialise(std::span<double> history) const {
-  for (int group = 0; group < group_count(); ++group) {
-    Lanes* h = reinterpret_cast<Lanes*>(history.data() +
-                                        static_cast<std::size_t>(group) * history_per_group());
-    h[kEnergy] = h[kHourglassEnergy] = Lanes::Zero();
-    h[kThickness] = lanes_of(thickness_, group);
-    h[kAlive] = Lanes::Ones();
+template <class N, template <class> class ElementOf>
+void ShellBlock<N, ElementOf>::set_element(int element, const Lanes3<double> (&x)[kCorners]) {
+  const ShellShape<double, kCorners> shape = shell_shape(x);
+  const double t = thickness_[element];
+  const double mass = matter_.density * shape.area * t, gyration = (shape.area + t * t) / 12;
+  const double step =
+      std::sqrt(stable_step_squared(ElementOf<double>(matter_), shape, t, mass, gyration));
+  const double scaling = std::max(1.0, matter_.controls.minimum_step / step);
+  area_[element] = shape.area;
+  added_[element] = mass * (scaling * scaling - 1);
+  mass_[element] = mass + added_[element];
+  gyration_[element] = gyration;
+  step_[element] = step * scaling;
+  Weight& weight = weights_[element / kWidth<N>];
+  weight.mass.set(element % kWidth<N>, mass_[element]);
+  weight.gyration.set(element % kWidth<N>, gyration);
+}
+
+template <class N, template <class> class ElementOf>
+void ShellBlock<N, ElementOf>::initialise(std::span<double> history) const {
+  for (int pack = 0; pack < pack_count(); ++pack) {
+    N* h = history_of(history, pack);
+    h[kEnergy] = h[kHourglassEnergy] = constant<N>(0);
+    for (int lane = 0; lane < kWidth<N>; ++lane)
+      h[kThickness].set(lane, thickness_[pack * kWidth<N> + lane]);
+    h[kAlive] = constant<N>(1);
     element_.initialise(h + kHeader);
   }
 }
 
-template <class Element>
-auto ShellBlock<Element>::load(const StepContext& step, int group) const
-    -> ShellGeometry<kCorners> {
-  ShellGeometry<kCorners> g;
-  const int* index = group_nodes(group);
-  const bool is_bending = has_moments();
-  for (int corner = 0; corner < kCorners; ++corner, index += kLanes) {
-    Lanes x[3], v[3];
-    load_positions(step.nodes, index, x);
-    load_velocities(step.nodes, index, v);
-    g.x[corner] = {x[0], x[1], x[2]};
-    g.v[corner] = {v[0], v[1], v[2]};
-    if (!is_bending) continue;
-    load_vectors(step.spin, index, g.spin[corner].x, g.spin[corner].y, g.spin[corner].z);
+template <class N, template <class> class ElementOf>
+auto ShellBlock<N, ElementOf>::load(const StepContext& step, int pack) const
+    -> ShellGeometry<N, kCorners> {
+  ShellGeometry<N, kCorners> g;
+  const int* index = group_nodes(pack * kGroupsPerPack<N>);
+  N x[kCorners][3], v[kCorners][3];
+  load_corners(step.nodes, index, x, v);
+  for (int corner = 0; corner < kCorners; ++corner) {
+    g.x[corner] = {x[corner][0], x[corner][1], x[corner][2]};
+    g.v[corner] = {v[corner][0], v[corner][1], v[corner][2]};
   }
+  if (!has_moments()) return g;
+  load_corner_vectors(step.spin, index, x);
+  for (int corner = 0; corner < kCorners; ++corner)
+    g.spin[corner] = {x[corner][0], x[corner][1], x[corner][2]};
   return g;
 }
 
-template <class Element>
-auto ShellBlock<Element>::motion(const ShellGeometry<kCorners>& g, double dt) const
-    -> ShellMotion<kCorners> {
-  const Lanes half = Lanes::Constant(0.5 * dt);
-  ShellMotion<kCorners> m;
-  Lanes3 x[kCorners];
+template <class N, template <class> class ElementOf>
+auto ShellBlock<N, ElementOf>::motion(const ShellGeometry<N, kCorners>& g, double dt) const
+    -> ShellMotion<N, kCorners> {
+  const N half = constant<N>(0.5 * dt);
+  ShellMotion<N, kCorners> m;
+  Lanes3<N> x[kCorners];
   for (int i = 0; i < kCorners; ++i) x[i] = difference(g.x[i], scaled(g.v[i], half));
   m.middle = shell_shape(x);
   m.end = shell_shape(g.x);
-  const Lanes none = Lanes::Zero();
+  const N none = constant<N>(0);
   for (int i = 0; i < kCorners; ++i) {
     m.v[i] = m.middle.frame.to_local(g.v[i]);
-    m.spin[i] = has_moments() ? m.middle.frame.to_local(g.spin[i]) : Lanes3{none, none, none};
+    m.spin[i] = has_moments() ? m.middle.frame.to_local(g.spin[i]) : Lanes3<N>{none, none, none};
   }
   m.dt = dt;
   return m;
 }
 
-inline void store(const Lanes3& a, const Lanes& factor, double* to) {
-  store_corner(a.x * factor, a.y * factor, a.z * factor, to);
+template <int kCorners, class N>
+void store(const Lanes3<N>& a, const N& factor, double* to) {
+  store_corner(a.x * factor, a.y * factor, a.z * factor, to,
+               std::size_t{kCorners} * kLanes * kCornerStride);
 }
 
-template <class Element>
-CW_FLATTEN void ShellBlock<Element>::forces(const StepContext& step, std::span<double> history,
-                                            std::span<double> corner_forces,
-                                            std::span<double> corner_moments, int first, int last,
-                                            BlockSums& sums) const {
+template <class N, template <class> class ElementOf>
+CW_FLATTEN void ShellBlock<N, ElementOf>::forces(const StepContext& step, std::span<double> history,
+                                                 std::span<double> corner_forces,
+                                                 std::span<double> corner_moments, int first,
+                                                 int last, BlockSums& sums) const {
   const bool is_bending = has_moments();
-  LaneSums lanes;
-  for (int group = first; group < last; ++group) {
-    Lanes* h = reinterpret_cast<Lanes*>(history.data() +
-                                        static_cast<std::size_t>(group) * history_per_group());
-    ShellGeometry<kCorners> g = load(step, group);
+  LaneSums<N> lanes;
+  for (int group = first; group < last; group += kGroupsPerPack<N>) {
+    const int pack = group / kGroupsPerPack<N>;
+    N* h = history_of(history, pack);
+    ShellGeometry<N, kCorners> g = load(step, pack);
     if (!all_positive(h[kAlive])) rest_where_failed(h[kAlive], g);
-    ShellMotion<kCorners> m = motion(g, step.dt);
+    ShellMotion<N, kCorners> m = motion(g, step.dt);
     m.thickness = h[kThickness];
-    m.mass = lanes_of(mass_, group);
-    const ShellAnswer<kCorners> answer = element_.answer(m, h + kHeader);
+    m.mass = weights_[pack].mass;
+    const ShellAnswer<N, kCorners> answer = element_.answer(m, h + kHeader);
     h[kEnergy] += answer.work * h[kAlive];
     h[kHourglassEnergy] += answer.stored;
     h[kAlive] = smaller(h[kAlive], answer.alive);
@@ -225,57 +250,58 @@ CW_FLATTEN void ShellBlock<Element>::forces(const StepContext& step, std::span<d
       h[kThickness] *= 1.0 + answer.thinning;
     for (int i = 0; i < kCorners; ++i) {
       const std::size_t slot = corner_slot(group - first, i, 0);
-      store(m.end.frame.to_world(answer.force[i]), h[kAlive], corner_forces.data() + slot);
+      store<kCorners>(m.end.frame.to_world(answer.force[i]), h[kAlive],
+                      corner_forces.data() + slot);
       if (is_bending)
-        store(m.end.frame.to_world(answer.moment[i]), h[kAlive], corner_moments.data() + slot);
+        store<kCorners>(m.end.frame.to_world(answer.moment[i]), h[kAlive],
+                        corner_moments.data() + slot);
     }
 
-    const Lanes mask = lane_mask(group);
-    const Lanes live = h[kAlive] * mask;
+    const N mask = lane_mask<N>(pack);
+    const N live = h[kAlive] * mask;
     lanes.internal += h[kEnergy] * mask;
     lanes.hourglass += h[kHourglassEnergy] * mask;
     lanes.hourglass_dissipated += answer.dissipated * live;
     lanes.failed += mask - live;
-    const Lanes half_alive = Lanes::Constant(0.5);
-    const Lanes area = where_less(half_alive, live, element_.least_area(m.end), Lanes::Ones());
-    if (!all_positive(area)) find_inverted(area, group, sums);
+    const N half_alive = constant<N>(0.5);
+    const N area = where_less(half_alive, live, element_.least_area(m.end), constant<N>(1));
+    if (!all_positive(area)) find_inverted(area, pack, sums);
     if (step.wants_stable_step)
       lanes.limit_step(
-          where_less(live, half_alive, Lanes::Constant(1e300),
-                     stable_step_squared(m.end, h[kThickness], m.mass, lanes_of(gyration_, group))),
-          group);
+          where_less(
+              live, half_alive, constant<N>(std::numeric_limits<double>::infinity()),
+              stable_step_squared(element_, m.end, h[kThickness], m.mass, weights_[pack].gyration)),
+          pack);
   }
   lanes.book(sums);
 }
 
-template <class Element>
-void ShellBlock<Element>::find_inverted(const Lanes& area, int group, BlockSums& sums) const {
-  for (int lane = 0; lane < kLanes && sums.inverted_element < 0; ++lane)
+template <class N, template <class> class ElementOf>
+void ShellBlock<N, ElementOf>::find_inverted(const N& area, int pack, BlockSums& sums) const {
+  for (int lane = 0; lane < kWidth<N> && sums.inverted_element < 0; ++lane)
     if (!(area[lane] > 0)) {
-      sums.inverted_element = group * kLanes + lane;
+      sums.inverted_element = pack * kWidth<N> + lane;
       sums.inverted_jacobian = area[lane] / area_[sums.inverted_element];
     }
 }
 
-template <class Element>
-ElementSample ShellBlock<Element>::sample(const StepContext& step, std::span<const double> history,
-                                          int element) const {
-  const int group = element / kLanes, lane = element % kLanes;
-  const Lanes* h = reinterpret_cast<const Lanes*>(history.data() + static_cast<std::size_t>(group) *
-                                                                       history_per_group());
-  const ShellGeometry<kCorners> g = load(step, group);
-  const ShellShape<kCorners> shape = shell_shape(g.x);
+template <class N, template <class> class ElementOf>
+ElementSample ShellBlock<N, ElementOf>::sample(const StepContext& step,
+                                               std::span<const double> history, int element) const {
+  const int pack = element / kWidth<N>, lane = element % kWidth<N>;
+  const N* h = history_of(history, pack);
+  const ShellGeometry<N, kCorners> g = load(step, pack);
+  const ShellShape<N, kCorners> shape = shell_shape(g.x);
   const SectionSample section = element_.sample(h + kHeader, lane);
   Mat3 R;
-  const Lanes3* axes[] = {&shape.frame.e1, &shape.frame.e2, &shape.frame.e3};
+  const Lanes3<N>* axes[] = {&shape.frame.e1, &shape.frame.e2, &shape.frame.e3};
   for (int i = 0; i < 3; ++i) R.col(i) = Vec3(axes[i]->x[lane], axes[i]->y[lane], axes[i]->z[lane]);
   const PlaneTensor<double>& s = section.stress;
   Mat3 local;
   local << s.xx, s.xy, s.zx, s.xy, s.yy, s.yz, s.zx, s.yz, 0;
 
   ElementSample out;
-  for (int i = 0; i < kCorners; ++i)
-    out.centre += Vec3(g.x[i].x[lane], g.x[i].y[lane], g.x[i].z[lane]) / kCorners;
+  out.centre = centre(step.nodes, element);
   out.volume = element_volume(element);
   out.stress = R * local * R.transpose();
   out.energy = h[kEnergy][lane];
@@ -292,13 +318,19 @@ std::unique_ptr<ElementBlock> make_shell_block(const Mesh& mesh, ElementKind kin
                                                const ElementControls& controls,
                                                std::span<const double> thickness) {
   CW_ASSERT(kind == ElementKind::Quad4 || kind == ElementKind::Tri3);
-  const auto make = [&]<class Element>(std::type_identity<Element>) {
-    return std::make_unique<ShellBlock<Element>>(mesh, kind, part, std::move(elements), section,
-                                                 controls, thickness);
+  const auto make_of =
+      [&]<class N, template <class> class ElementOf>() -> std::unique_ptr<ElementBlock> {
+    return std::make_unique<ShellBlock<N, ElementOf>>(mesh, kind, part, std::move(elements),
+                                                      section, controls, thickness);
   };
-  if (kind == ElementKind::Tri3) return make(std::type_identity<OnePointShell<3>>{});
-  if (section.integration == ShellIntegration::Full) return make(std::type_identity<FullShell>{});
-  return make(std::type_identity<OnePointShell<4>>{});
+  const auto make = [&]<template <class> class ElementOf>() {
+    return controls.precision == Precision::Single
+               ? make_of.template operator()<SingleLanes, ElementOf>()
+               : make_of.template operator()<Lanes, ElementOf>();
+  };
+  if (kind == ElementKind::Tri3) return make.template operator()<TriangleShell>();
+  if (section.integration == ShellIntegration::Full) return make.template operator()<FullShell>();
+  return make.template operator()<QuadrilateralShell>();
 }
 
 }  // namespace crosswalk::fe

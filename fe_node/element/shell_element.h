@@ -22,23 +22,23 @@ struct ShellMatter {
 
 /// The motion of a step: geometry at its middle and end, velocities and spins in the local frame of
 /// the middle.
-template <int kCorners>
+template <class N, int kCorners>
 struct ShellMotion {
-  ShellShape<kCorners> middle, end;
-  Lanes3 v[kCorners], spin[kCorners];
-  Lanes thickness, mass;
+  ShellShape<N, kCorners> middle, end;
+  Lanes3<N> v[kCorners], spin[kCorners];
+  N thickness, mass;
   double dt = 0;
 };
 
 /// Loads of the corners in local axes of the end of the step.
-template <int kCorners>
+template <class N, int kCorners>
 struct ShellAnswer {
-  Lanes3 force[kCorners], moment[kCorners];
-  Lanes work = Lanes::Zero();        ///< J, of this step on the material
-  Lanes thinning = Lanes::Zero();    ///< mean normal strain increment
-  Lanes alive = Lanes::Ones();       ///< 0 when the element has failed
-  Lanes stored = Lanes::Zero();      ///< J, change of the energy of stiffness hourglass control
-  Lanes dissipated = Lanes::Zero();  ///< J, by hourglass control in this step
+  Lanes3<N> force[kCorners], moment[kCorners];
+  N work = constant<N>(0);        ///< J, of this step on the material
+  N thinning = constant<N>(0);    ///< mean normal strain increment
+  N alive = constant<N>(1);       ///< 0 when the element has failed
+  N stored = constant<N>(0);      ///< J, change of the energy of stiffness hourglass control
+  N dissipated = constant<N>(0);  ///< J, by hourglass control in this step
 };
 
 /// Bounds of omega^2 m / (n A t), n corners: the membrane's lambda' tr g + 2 mu g_max with lambda'
@@ -46,37 +46,38 @@ struct ShellAnswer {
 /// larger eigenvalue of the shear rows for shear. Where the nodes lie off the middle by e the
 /// membrane's is for both at once, times the larger eigenvalue of (1, e / r; e / r, (t^2 / 12 +
 /// e^2) / r^2), r^2 the gyration.
+template <class N>
 struct ShellBounds {
-  Lanes membrane, bending, shear;
+  N membrane, bending, shear;
 };
 
-template <int kCorners>
-ShellBounds shell_bounds(const ShellMatter& matter, const ShellShape<kCorners>& shape,
-                         const Lanes& thickness, const Lanes& gyration) {
-  Lanes largest, trace;
+template <class N, int kCorners>
+ShellBounds<N> shell_bounds(const ShellMatter& matter, const ShellShape<N, kCorners>& shape,
+                            const N& thickness, const N& gyration) {
+  N largest, trace;
   gradient_metric(shape, largest, trace);
   const double E = matter.youngs, nu = matter.poisson;
   const double two_mu = E / (1 + nu), lambda = E * nu / (1 - nu * nu);
-  ShellBounds bounds;
+  ShellBounds<N> bounds;
   bounds.membrane = lambda * trace + two_mu * largest;
-  bounds.bending = bounds.shear = Lanes::Zero();
+  bounds.bending = bounds.shear = constant<N>(0);
   if (!matter.is_bending()) return bounds;
-  const Lanes relative = thickness * thickness / gyration;
+  const N relative = thickness * thickness / gyration;
   bounds.bending = bounds.membrane * relative * (1.0 / 12);
   if (matter.off_middle != 0) {
-    const Lanes off2 = matter.off_middle * matter.off_middle * relative;
+    const N off2 = matter.off_middle * matter.off_middle * relative;
     bounds.membrane *=
-        larger_eigenvalue(Lanes::Ones(), relative * (1.0 / 12) + off2, square_root(off2));
+        larger_eigenvalue(constant<N>(1), relative * (1.0 / 12) + off2, square_root(off2));
   }
   bounds.shear = (0.5 * two_mu * matter.section.shear_factor) * shear_metric(shape, gyration);
   return bounds;
 }
 
-inline SectionVector increment_of(SectionVector rate, double dt, bool is_bending) {
-  for (Lanes* r :
-       {&rate.xx, &rate.yy, &rate.xy, &rate.kxx, &rate.kyy, &rate.kxy, &rate.yz, &rate.zx})
+template <class N>
+SectionVector<N> increment_of(SectionVector<N> rate, double dt, bool is_bending) {
+  for (N* r : {&rate.xx, &rate.yy, &rate.xy, &rate.kxx, &rate.kyy, &rate.kxy, &rate.yz, &rate.zx})
     *r *= dt;
-  if (!is_bending) rate.yz = rate.zx = Lanes::Zero();
+  if (!is_bending) rate.yz = rate.zx = constant<N>(0);
   return rate;
 }
 

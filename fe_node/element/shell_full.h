@@ -8,6 +8,7 @@
 
 namespace crosswalk::fe {
 
+template <class N>
 class FullShell {
  public:
   static constexpr int kCorners = 4;
@@ -17,18 +18,18 @@ class FullShell {
       : matter_(matter), section_size_(section_history(matter.section)) {}
 
   int history_size() const { return kSections + kPoints * section_size_; }
-  void initialise(Lanes* history) const {
-    for (int i = 0; i < kSections; ++i) history[i] = Lanes::Zero();
+  void initialise(N* history) const {
+    for (int i = 0; i < kSections; ++i) history[i] = constant<N>(0);
     for (int p = 0; p < kPoints; ++p)
       initialise_section(matter_.section, history + kSections + p * section_size_);
   }
-  ShellAnswer<4> answer(const ShellMotion<4>& motion, Lanes* history) const;
-  Lanes stiffness(const ShellShape<4>& shape, const Lanes& thickness, const Lanes& gyration) const;
+  ShellAnswer<N, 4> answer(const ShellMotion<N, 4>& motion, N* history) const;
+  N stiffness(const ShellShape<N, 4>& shape, const N& thickness, const N& gyration) const;
   /// Four times the least Jacobian, m2; at most zero in an element folded over.
-  Lanes least_area(const ShellShape<4>& shape) const {
-    return 4.0 * FullShellShape(shape).least_jacobian();
+  N least_area(const ShellShape<N, 4>& shape) const {
+    return 4.0 * FullShellShape<N>(shape).least_jacobian();
   }
-  SectionSample sample(const Lanes* history, int lane) const;
+  SectionSample sample(const N* history, int lane) const;
 
  private:
   static constexpr double kLeastPoints = 2;
@@ -37,31 +38,32 @@ class FullShell {
 
   static double xi_of(int point) { return kCornerXi[point] * kGaussPoint; }
   static double eta_of(int point) { return kCornerEta[point] * kGaussPoint; }
-  void add_drilling(const ShellMotion<4>& motion, const Lanes& omega, Lanes* moments,
-                    ShellAnswer<4>& answer) const;
+  void add_drilling(const ShellMotion<N, 4>& motion, const N& omega, N* moments,
+                    ShellAnswer<N, 4>& answer) const;
 
   ShellMatter matter_;
   int section_size_;
 };
 
-inline ShellAnswer<4> FullShell::answer(const ShellMotion<4>& motion, Lanes* history) const {
-  const FullShellShape middle(motion.middle), end(motion.end);
-  const FullShellField rate = full_shell_field(middle, motion.v, motion.spin);
-  const TiedShear shear = TiedShear::of(middle, rate);
-  const FullShellPoint middle_centre(middle, 0, 0), end_centre(end, 0, 0);
-  const Lanes plane_shear = middle_centre.gradient(rate.u).y + middle_centre.gradient(rate.v).x;
-  const Lanes shear_factor = Lanes::Constant(matter_.section.shear_factor);
+template <class N>
+ShellAnswer<N, 4> FullShell<N>::answer(const ShellMotion<N, 4>& motion, N* history) const {
+  const FullShellShape<N> middle(motion.middle), end(motion.end);
+  const FullShellField<N> rate = full_shell_field(middle, motion.v, motion.spin);
+  const TiedShear<N> shear = TiedShear<N>::of(middle, rate);
+  const FullShellPoint<N> middle_centre(middle, 0, 0), end_centre(end, 0, 0);
+  const N plane_shear = middle_centre.gradient(rate.u).y + middle_centre.gradient(rate.v).x;
+  const N shear_factor = constant<N>(matter_.section.shear_factor);
 
-  const Bilinear none = Bilinear::zero();
-  FullShellField load{none, none, none, none, none};
-  TiedShear shear_load{Lanes::Zero(), Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
-  Lanes plane_shear_load = Lanes::Zero(), points = Lanes::Zero();
-  ShellAnswer<4> out;
+  const Bilinear<N> none = Bilinear<N>::zero();
+  FullShellField<N> load{none, none, none, none, none};
+  TiedShear<N> shear_load{constant<N>(0), constant<N>(0), constant<N>(0), constant<N>(0)};
+  N plane_shear_load = constant<N>(0), points = constant<N>(0);
+  ShellAnswer<N, 4> out;
   for (int i = 0; i < kPoints; ++i) {
-    const FullShellPoint before(middle, xi_of(i), eta_of(i)), now(end, xi_of(i), eta_of(i));
-    const SectionVector e = increment_of(full_shell_rates(before, rate, shear, plane_shear),
-                                         motion.dt, matter_.is_bending());
-    const SectionAnswer section =
+    const FullShellPoint<N> before(middle, xi_of(i), eta_of(i)), now(end, xi_of(i), eta_of(i));
+    const SectionVector<N> e = increment_of(full_shell_rates(before, rate, shear, plane_shear),
+                                            motion.dt, matter_.is_bending());
+    const SectionAnswer<N> section =
         integrate_section(matter_.section, e, motion.thickness, shear_factor, motion.dt,
                           history + kSections + i * section_size_);
     out.work += section.work * before.jacobian;
@@ -70,15 +72,15 @@ inline ShellAnswer<4> FullShell::answer(const ShellMotion<4>& motion, Lanes* his
     add_full_shell_loads(now, section.resultants, load, shear_load);
     plane_shear_load += section.resultants.xy * now.jacobian;
   }
-  out.alive = where_less(points, Lanes::Constant(kLeastPoints), Lanes::Zero(), Lanes::Ones());
+  out.alive = where_less(points, constant<N>(kLeastPoints), constant<N>(0), constant<N>(1));
   plane_shear_load /= end.jacobian;
-  end_centre.add_gradient_load({Lanes::Zero(), plane_shear_load}, load.u);
-  end_centre.add_gradient_load({plane_shear_load, Lanes::Zero()}, load.v);
+  end_centre.add_gradient_load({constant<N>(0), plane_shear_load}, load.u);
+  end_centre.add_gradient_load({plane_shear_load, constant<N>(0)}, load.v);
   if (matter_.is_bending()) shear_load.add_loads(end, load);
 
   for (int i = 0; i < 4; ++i) {
-    const Slope z = corner_slope(end_centre, end.warp, i);
-    Lanes3& m = out.moment[i];
+    const Slope<N> z = corner_slope(end_centre, end.warp, i);
+    Lanes3<N>& m = out.moment[i];
     m.x = -load.th_x.at_corner(i);
     m.y = -load.th_y.at_corner(i);
     m.z = z.x * m.x + z.y * m.y;
@@ -90,13 +92,14 @@ inline ShellAnswer<4> FullShell::answer(const ShellMotion<4>& motion, Lanes* his
 
 /// Elastic moments against th_z - Omega; and the forces that do the work of all moments about z on
 /// Omega.
-inline void FullShell::add_drilling(const ShellMotion<4>& motion, const Lanes& omega,
-                                    Lanes* moments, ShellAnswer<4>& answer) const {
-  const Lanes t3 = motion.thickness * motion.thickness * motion.thickness;
-  const Lanes stiffness = (kDrilling * matter_.mean_youngs / 48) * t3 * motion.end.area;
-  Lanes sum = Lanes::Zero();
+template <class N>
+void FullShell<N>::add_drilling(const ShellMotion<N, 4>& motion, const N& omega, N* moments,
+                                ShellAnswer<N, 4>& answer) const {
+  const N t3 = motion.thickness * motion.thickness * motion.thickness;
+  const N stiffness = (kDrilling * matter_.mean_youngs / 48) * t3 * motion.end.area;
+  N sum = constant<N>(0);
   for (int i = 0; i < 4; ++i) {
-    const Lanes turn = (motion.spin[i].z - omega) * motion.dt, before = moments[i];
+    const N turn = (motion.spin[i].z - omega) * motion.dt, before = moments[i];
     moments[i] += stiffness * turn;
     answer.stored += 0.5 * (before + moments[i]) * turn;
     answer.moment[i].z -= moments[i];
@@ -114,22 +117,23 @@ inline void FullShell::add_drilling(const ShellMotion<4>& motion, const Lanes& o
 /// by
 /// (|h|^2 + |h| sqrt(tr g)) / 3 in units of g; a warp of slope s stretches by 1 + s^2. The shear
 /// that varies over the element, two thirds, meets its twist.
-inline Lanes FullShell::stiffness(const ShellShape<4>& shape, const Lanes& thickness,
-                                  const Lanes& gyration) const {
-  const FullShellShape s(shape);
-  const ShellBounds bounds = shell_bounds(matter_, shape, thickness, gyration);
-  Lanes largest, trace;
+template <class N>
+N FullShell<N>::stiffness(const ShellShape<N, 4>& shape, const N& thickness,
+                          const N& gyration) const {
+  const FullShellShape<N> s(shape);
+  const ShellBounds<N> bounds = shell_bounds(matter_, shape, thickness, gyration);
+  N largest, trace;
   gradient_metric(shape, largest, trace);
-  const Lanes h2 =
-      0.25 * (s.x.twist * s.x.twist + s.y.twist * s.y.twist) / (s.jacobian * s.jacobian);
-  const Lanes growth = 1.0 + (h2 + square_root(h2 * trace)) * (1.0 / 3) / largest;
-  const Lanes warped = 1.0 + (8.0 / 3) * s.warp * s.warp * trace;
-  const Lanes least = larger(s.least_jacobian(), 1e-3 * s.jacobian);
-  const Lanes bent = larger(bounds.shear, bounds.bending + (2.0 / 3) * bounds.shear);
+  const N h2 = 0.25 * (s.x.twist * s.x.twist + s.y.twist * s.y.twist) / (s.jacobian * s.jacobian);
+  const N growth = 1.0 + (h2 + square_root(h2 * trace)) * (1.0 / 3) / largest;
+  const N warped = 1.0 + (8.0 / 3) * s.warp * s.warp * trace;
+  const N least = larger(s.least_jacobian(), 1e-3 * s.jacobian);
+  const N bent = larger(bounds.shear, bounds.bending + (2.0 / 3) * bounds.shear);
   return larger(bounds.membrane, bent) * growth * warped * s.jacobian / least;
 }
 
-inline SectionSample FullShell::sample(const Lanes* history, int lane) const {
+template <class N>
+SectionSample FullShell<N>::sample(const N* history, int lane) const {
   SectionSample mean;
   for (int p = 0; p < kPoints; ++p) {
     const SectionSample at =

@@ -12,7 +12,7 @@
 
 namespace crosswalk::fe {
 
-template <int corners>
+template <class N, int corners>
 class OnePointShell {
  public:
   static constexpr int kCorners = corners;
@@ -21,17 +21,16 @@ class OnePointShell {
   explicit OnePointShell(const ShellMatter& matter) : matter_(matter) {}
 
   int history_size() const { return kSection + section_history(matter_.section); }
-  void initialise(Lanes* history) const {
-    history[kIntact] = Lanes::Ones();
-    for (int i = kControl; i < kSection; ++i) history[i] = Lanes::Zero();
+  void initialise(N* history) const {
+    history[kIntact] = constant<N>(1);
+    for (int i = kControl; i < kSection; ++i) history[i] = constant<N>(0);
     initialise_section(matter_.section, history + kSection);
   }
-  ShellAnswer<corners> answer(const ShellMotion<corners>& motion, Lanes* history) const;
-  Lanes stiffness(const ShellShape<corners>& shape, const Lanes& thickness,
-                  const Lanes& gyration) const;
+  ShellAnswer<N, corners> answer(const ShellMotion<N, corners>& motion, N* history) const;
+  N stiffness(const ShellShape<N, corners>& shape, const N& thickness, const N& gyration) const;
   /// m2; at most zero in an element folded over.
-  Lanes least_area(const ShellShape<corners>& shape) const { return shape.area; }
-  SectionSample sample(const Lanes* history, int lane) const {
+  N least_area(const ShellShape<N, corners>& shape) const { return shape.area; }
+  SectionSample sample(const N* history, int lane) const {
     return sample_section(matter_.section, history + kSection, lane);
   }
 
@@ -42,28 +41,28 @@ class OnePointShell {
 
   /// Transverse shear of the triangle is softened by t^2 / (t^2 + 0.1 h^2), h^2 = 2 A
   /// [lyly1993]: without it thin triangles lock.
-  static Lanes shear_softening(const Lanes& thickness, const Lanes& area) {
+  static N shear_softening(const N& thickness, const N& area) {
     constexpr double kShearSoftening = 0.1;
-    const Lanes t2 = thickness * thickness;
+    const N t2 = thickness * thickness;
     return t2 / (t2 + 2 * kShearSoftening * area);
   }
-  void add_hourglass(const ShellMotion<corners>& motion, const Lanes& intact, Lanes* history,
-                     ShellAnswer<corners>& answer) const;
+  void add_hourglass(const ShellMotion<N, corners>& motion, const N& intact, N* history,
+                     ShellAnswer<N, corners>& answer) const;
 
   ShellMatter matter_;
 };
 
-template <int corners>
-ShellAnswer<corners> OnePointShell<corners>::answer(const ShellMotion<corners>& motion,
-                                                    Lanes* history) const {
-  const ShellShape<corners>& middle = motion.middle;
-  const SectionVector e =
+template <class N, int corners>
+ShellAnswer<N, corners> OnePointShell<N, corners>::answer(const ShellMotion<N, corners>& motion,
+                                                          N* history) const {
+  const ShellShape<N, corners>& middle = motion.middle;
+  const SectionVector<N> e =
       increment_of(shell_rates(middle, motion.v, motion.spin), motion.dt, matter_.is_bending());
-  Lanes shear_factor = Lanes::Constant(matter_.section.shear_factor);
+  N shear_factor = constant<N>(matter_.section.shear_factor);
   if (kCorners == 3) shear_factor *= shear_softening(motion.thickness, middle.area);
-  const SectionAnswer section = integrate_section(matter_.section, e, motion.thickness,
-                                                  shear_factor, motion.dt, history + kSection);
-  ShellAnswer<corners> out;
+  const SectionAnswer<N> section = integrate_section(matter_.section, e, motion.thickness,
+                                                     shear_factor, motion.dt, history + kSection);
+  ShellAnswer<N, corners> out;
   out.work = section.work * middle.area;
   out.thinning = section.thinning;
   out.alive = section.alive;
@@ -71,14 +70,14 @@ ShellAnswer<corners> OnePointShell<corners>::answer(const ShellMotion<corners>& 
     shell_loads(motion.end, section.resultants, i, out.force[i], out.moment[i]);
   if constexpr (kCorners == 4)
     if (matter_.controls.hourglass != HourglassForm::None)
-      add_hourglass(motion, larger(section.intact, Lanes::Constant(kLeastIntact)), history, out);
+      add_hourglass(motion, larger(section.intact, constant<N>(kLeastIntact)), history, out);
   return out;
 }
 
-template <int corners>
-Lanes OnePointShell<corners>::stiffness(const ShellShape<corners>& shape, const Lanes& thickness,
-                                        const Lanes& gyration) const {
-  ShellBounds bounds = shell_bounds(matter_, shape, thickness, gyration);
+template <class N, int corners>
+N OnePointShell<N, corners>::stiffness(const ShellShape<N, corners>& shape, const N& thickness,
+                                       const N& gyration) const {
+  ShellBounds<N> bounds = shell_bounds(matter_, shape, thickness, gyration);
   if (kCorners == 3)  // shear of the triangle meets its curvature; of the quadrilateral it cannot
     bounds.shear = bounds.bending + bounds.shear * shear_softening(thickness, shape.area);
   return larger(larger(bounds.membrane, bounds.bending), bounds.shear);
@@ -86,25 +85,26 @@ Lanes OnePointShell<corners>::stiffness(const ShellShape<corners>& shape, const 
 
 /// Control is as stiff as what is left of the section: a cracked pane folds along lines that whole
 /// glass would forbid. What a crack sets free of the control's own energy is dissipated.
-template <int corners>
-void OnePointShell<corners>::add_hourglass(const ShellMotion<corners>& motion, const Lanes& intact,
-                                           Lanes* history, ShellAnswer<corners>& answer) const {
+template <class N, int corners>
+void OnePointShell<N, corners>::add_hourglass(const ShellMotion<N, corners>& motion,
+                                              const N& intact, N* history,
+                                              ShellAnswer<N, corners>& answer) const {
   static_assert(kCorners == 4);
-  const ShellShape<4>&middle = motion.middle, &end = motion.end;
+  const ShellShape<N, 4>&middle = motion.middle, &end = motion.end;
   const bool is_bending = matter_.is_bending();
   const double r = matter_.controls.hourglass_coefficient, dt = motion.dt;
   const double poisson = matter_.poisson;
-  const Lanes& t = motion.thickness;
-  Lanes largest, trace, mode[5], gamma[4];
+  const N& t = motion.thickness;
+  N largest, trace, mode[5], gamma[4];
   gradient_metric(end, largest, trace);
-  const Lanes hx = middle.x[0] - middle.x[1] + middle.x[2] - middle.x[3];
-  const Lanes hy = middle.y[0] - middle.y[1] + middle.y[2] - middle.y[3];
-  for (Lanes& m : mode) m = Lanes::Zero();
+  const N hx = middle.x[0] - middle.x[1] + middle.x[2] - middle.x[3];
+  const N hy = middle.y[0] - middle.y[1] + middle.y[2] - middle.y[3];
+  for (N& m : mode) m = constant<N>(0);
   // the part of the in-plane modes that a rotation of the warped element makes is taken out
-  const Lanes warp = 4.0 * middle.warp, end_warp = 4.0 * end.warp;
+  const N warp = 4.0 * middle.warp, end_warp = 4.0 * end.warp;
   for (int i = 0; i < 4; ++i) {
-    const Lanes g = (i % 2 == 0 ? 1.0 : -1.0) - hx * middle.bx[i] - hy * middle.by[i];
-    const Lanes3 &v = motion.v[i], &spin = motion.spin[i];
+    const N g = (i % 2 == 0 ? 1.0 : -1.0) - hx * middle.bx[i] - hy * middle.by[i];
+    const Lanes3<N>&v = motion.v[i], &spin = motion.spin[i];
     mode[0] += g * v.x + warp * middle.bx[i] * v.z;
     mode[1] += g * v.y + warp * middle.by[i] * v.z;
     if (!is_bending) continue;
@@ -112,15 +112,15 @@ void OnePointShell<corners>::add_hourglass(const ShellMotion<corners>& motion, c
     mode[3] += g * spin.x;
     mode[4] += g * spin.y;
   }
-  const Lanes ex = end.x[0] - end.x[1] + end.x[2] - end.x[3];
-  const Lanes ey = end.y[0] - end.y[1] + end.y[2] - end.y[3];
+  const N ex = end.x[0] - end.x[1] + end.x[2] - end.x[3];
+  const N ey = end.y[0] - end.y[1] + end.y[2] - end.y[3];
   for (int i = 0; i < 4; ++i)
     gamma[i] = (i % 2 == 0 ? 1.0 : -1.0) - ex * end.bx[i] - ey * end.by[i];
 
-  Lanes factor[3];  // membrane, warping, bending
+  N factor[3];  // membrane, warping, bending
   const bool is_stiff = matter_.controls.hourglass == HourglassForm::Stiffness;
   if (is_stiff) {
-    const Lanes stiffness = matter_.mean_youngs * intact;
+    const N stiffness = matter_.mean_youngs * intact;
     factor[0] = (r / 8) * stiffness * t * end.area * trace;
     factor[2] = factor[0] * t * t * (1.0 / 24);
     factor[1] = (r * matter_.section.shear_factor * 0.5 / (1 + poisson) / 12) * stiffness * t * t *
@@ -131,17 +131,17 @@ void OnePointShell<corners>::add_hourglass(const ShellMotion<corners>& motion, c
     factor[2] = factor[0] * t * t * (1.0 / 12);
     factor[1] = factor[2] * trace;
   }
-  const Lanes kept = intact / history[kIntact];
+  const N kept = intact / history[kIntact];
   history[kIntact] = intact;
   const int modes = is_bending ? 5 : 2;
-  Lanes load[5];
+  N load[5];
   for (int k = 0; k < modes; ++k) {
-    const Lanes& f = factor[k < 2 ? 0 : k == 2 ? 1 : 2];
+    const N& f = factor[k < 2 ? 0 : k == 2 ? 1 : 2];
     if (is_stiff) {
-      Lanes& stored = history[kControl + k];
-      const Lanes before = stored;
+      N& stored = history[kControl + k];
+      const N before = stored;
       stored = kept * before + f * mode[k] * dt;
-      const Lanes released = 0.5 * kept * (1.0 - kept) * before * before / (f + 1e-300);
+      const N released = 0.5 * kept * (1.0 - kept) * before * before / (f + kTiny<N>);
       answer.dissipated += released;
       answer.stored += 0.5 * (before + stored) * mode[k] * dt - released;
       load[k] = stored;
@@ -151,7 +151,7 @@ void OnePointShell<corners>::add_hourglass(const ShellMotion<corners>& motion, c
     }
   }
   for (int i = 0; i < 4; ++i) {
-    Lanes3 &force = answer.force[i], &moment = answer.moment[i];
+    Lanes3<N>&force = answer.force[i], &moment = answer.moment[i];
     force.x -= gamma[i] * load[0];
     force.y -= gamma[i] * load[1];
     force.z -= end_warp * (end.bx[i] * load[0] + end.by[i] * load[1]);
@@ -161,5 +161,10 @@ void OnePointShell<corners>::add_hourglass(const ShellMotion<corners>& motion, c
     moment.y -= gamma[i] * load[4];
   }
 }
+
+template <class N>
+using QuadrilateralShell = OnePointShell<N, 4>;
+template <class N>
+using TriangleShell = OnePointShell<N, 3>;
 
 }  // namespace crosswalk::fe

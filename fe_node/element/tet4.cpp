@@ -97,7 +97,7 @@ class Tet4Block final : public ElementBlock {
                                           std::size_t(history_per_group()) * group);
   }
   double& nodal(std::span<double> history, int node) const {
-    return at(history, node / (4 * kLanes))[kNodal + node / kLanes % 4][node % kLanes];
+    return at(history, node / (4 * kLanes))[kNodal + node / kLanes % 4].data()[node % kLanes];
   }
   void set_reference(const Mesh& mesh);
   void number_nodes(const Mesh& mesh);
@@ -157,14 +157,14 @@ void Tet4Block<Law>::set_reference(const Mesh& mesh) {
       for (int c = 0; c < 4; ++c) {
         metric += b[c] * b[c].transpose();
         steepest = std::max(steepest, b[c].norm());
-        for (int i = 0; i < 3; ++i) ref.gradient[c][i][lane] = b[c][i];
+        for (int i = 0; i < 3; ++i) ref.gradient[c][i].set(lane, b[c][i]);
       }
-      ref.volume[lane] = volume;
-      ref.length[lane] = 1 / steepest;
-      ref.density[lane] = law_.density;
+      ref.volume.set(lane, volume);
+      ref.length.set(lane, 1 / steepest);
+      ref.density.set(lane, law_.density);
       const double entries[6] = {metric(0, 0), metric(1, 1), metric(2, 2),
                                  metric(0, 1), metric(1, 2), metric(2, 0)};
-      for (int k = 0; k < 6; ++k) ref.metric[k][lane] = entries[k];
+      for (int k = 0; k < 6; ++k) ref.metric[k].set(lane, entries[k]);
     }
   }
   for (int e = 0; e < element_count(); ++e) {
@@ -172,7 +172,7 @@ void Tet4Block<Law>::set_reference(const Mesh& mesh) {
     if (lacking > 1) added_density_[e] = law_.density * (lacking * lacking - 1);
   }
   for (int e = 0; e < element_count(); ++e)
-    groups_[e / kLanes].density[e % kLanes] += added_density_[e];
+    groups_[e / kLanes].density.data()[e % kLanes] += added_density_[e];
 }
 
 template <class Law>
@@ -215,7 +215,7 @@ Lanes Tet4Block<Law>::mean_of_nodes(std::span<double> history, int group) const 
   const int* local = local_.data() + static_cast<std::size_t>(group) * 4 * kLanes;
   for (int c = 0; c < 4; ++c)
     for (int lane = 0; lane < kLanes; ++lane)
-      sum[lane] += 0.25 * nodal(history, local[c * kLanes + lane]);
+      sum.data()[lane] += 0.25 * nodal(history, local[c * kLanes + lane]);
   return sum;
 }
 
@@ -286,7 +286,7 @@ template <class Law>
 void Tet4Block<Law>::forces(const StepContext& step, std::span<double> history,
                             std::span<double> corner_forces, std::span<double> /*moments*/,
                             int first, int last, BlockSums& sums) const {
-  LaneSums lanes;
+  LaneSums<Lanes> lanes;
   for (int group = first; group < last; ++group) {
     const TetReference& ref = groups_[group];
     Lanes* h = at(history, group);
@@ -315,7 +315,7 @@ void Tet4Block<Law>::forces(const StepContext& step, std::span<double> history,
       for (int i = 0; i < 3; ++i)
         f[i] = factor * (P(i, 0) * ref.gradient[c][0] + P(i, 1) * ref.gradient[c][1] +
                          P(i, 2) * ref.gradient[c][2]);
-      store_corner(f[0], f[1], f[2], corner_forces.data() + corner_slot(group - first, c, 0));
+      store_corner(f[0], f[1], f[2], corner_forces.data() + corner_slot(group - first, c, 0), 0);
     }
     answer.alive = h[kAlive];
     answer.energy = h[kEnergy];
@@ -326,7 +326,7 @@ void Tet4Block<Law>::forces(const StepContext& step, std::span<double> history,
     const Lanes shorten = square_root(Lanes(1.0 + ratio * ratio)) - ratio;
     answer.stable_step_squared =
         stable_step_squared(group, F_inverse, answer.J, h[kBulk], h[kShear]) * shorten * shorten;
-    add_to_sums(answer, lane_mask(group), step, group, element_count(), lanes, sums);
+    add_to_sums(answer, lane_mask<Lanes>(group), step, group, element_count(), lanes, sums);
   }
   lanes.book(sums);
 }
@@ -343,8 +343,7 @@ ElementSample Tet4Block<Law>::sample(const StepContext& step, std::span<const do
   out.volume = element_volume(element);
   out.energy = h[kEnergy][lane];
   out.is_alive = h[kAlive][lane] > 0;
-  for (int c = 0; c < 4; ++c)
-    for (int i = 0; i < 3; ++i) out.centre[i] += 0.25 * nodes.x[c][i][lane];
+  out.centre = centre(step.nodes, element);
   for (int k = 0; k < 9; ++k) out.deformation(k / 3, k % 3) = F(k / 3, k % 3)[lane];
   const double p = h[kPressure][lane];
   out.stress << h[kTau][lane], h[kTau + 3][lane], h[kTau + 5][lane], h[kTau + 3][lane],

@@ -16,10 +16,11 @@ N inverse_cube_root_near_one(const N& J) {
 }
 
 inline double inverse_cube_root(double J) { return 1.0 / std::cbrt(J); }
-inline Lanes inverse_cube_root(const Lanes& J) {
+template <class Real>
+LanesOf<Real> inverse_cube_root(const LanesOf<Real>& J) {
   constexpr double kNear = 0.25;
   if (all_positive(kNear - magnitude(J - 1.0))) return inverse_cube_root_near_one(J);
-  return exponential(Lanes((-1.0 / 3.0) * logarithm(J)));
+  return exponential((-1.0 / 3.0) * logarithm(J));
 }
 
 }  // namespace crosswalk::fe

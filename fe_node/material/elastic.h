@@ -33,11 +33,26 @@ struct Elastic {
     const N a = lambda * dilation * J - mu;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) answer.P(i, j) = mu * step.F(i, j) + a * step.F_inverse(j, i);
-    answer.energy = 0.5 * mu * (contract(step.F, step.F) - 3.0) - mu * logarithm(J) +
-                    0.5 * lambda * dilation * dilation;
+    answer.energy = mu * isochoric_energy(step.F) + 0.5 * lambda * dilation * dilation;
     answer.bulk_modulus = constant<N>(bulk_modulus());
     answer.shear_modulus = constant<N>(mu);
     return answer;
+  }
+
+ private:
+  /// (tr C - 3) / 2 - ln J in invariants of Green's strain E, whose squares it is made of: with
+  /// J^2 = 1 + x, x = 2 tr E + 4 I2 + 8 I3, it is (x - ln(1 + x)) / 2 - 2 I2 - 4 I3.
+  template <class N>
+  static N isochoric_energy(const Tensor<N>& F) {
+    const Symmetric<N> C = right_cauchy_green(F);
+    const Symmetric<N> E{0.5 * (C.xx - 1.0), 0.5 * (C.yy - 1.0), 0.5 * (C.zz - 1.0),
+                         0.5 * C.xy,         0.5 * C.yz,         0.5 * C.zx};
+    const N xx = E.yy * E.zz - E.yz * E.yz, xy = E.yz * E.zx - E.xy * E.zz,
+            zx = E.xy * E.yz - E.yy * E.zx;
+    const N I2 = xx + E.zz * E.xx - E.zx * E.zx + E.xx * E.yy - E.xy * E.xy;
+    const N I3 = E.xx * xx + E.xy * xy + E.zx * zx;
+    const N of_products = 2.0 * I2 + 4.0 * I3;
+    return 0.5 * logarithm_gap(N(2.0 * (trace(E) + of_products))) - of_products;
   }
 };
 

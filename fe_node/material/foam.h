@@ -52,10 +52,10 @@ struct Foam {
     N keep = constant<N>(1);
     if (unloading_share < 1) {
       history[0] = larger(history[0], stored);
-      const N ratio = larger(N(stored / (history[0] + 1e-300)), constant<N>(1e-12));
+      const N ratio = larger(N(stored / (history[0] + kTiny<N>)), constant<N>(1e-12));
       const N power = exponential(N(shape * logarithm(ratio)));
       keep = 1.0 - (1 - unloading_share) * (1.0 - power);
-      keep = where_less(constant<N>(1e-280), history[0], keep, constant<N>(1));
+      keep = where_less(constant<N>(1e20 * kTiny<N>), history[0], keep, constant<N>(1));
       for (N& s : stress) s *= keep;
     }
     history[1] += keep * (stored - history[2]);

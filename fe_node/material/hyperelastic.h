@@ -41,7 +41,7 @@ struct RubberBase {
     const N pressure = bulk * (J - 1.0);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) answer.P(i, j) += pressure * step.F_inverse(j, i);
-    answer.energy += bulk * (J - 1.0 - logarithm(J));
+    answer.energy += bulk * logarithm_gap(N(J - 1.0));
     answer.bulk_modulus = bulk / J;  // of the spatial acoustic tensor
     answer.shear_modulus = isochoric_shear;
     if (overstress.term_count == 0) return;

@@ -36,7 +36,9 @@ struct Plastic {
 
  private:
   static constexpr int kIterations = 12;
-  static constexpr double kTolerance = 1e-10;  ///< of the yield stress
+  /// Of the yield stress.
+  template <class N>
+  static constexpr double kTolerance = std::max(1e-10, 8 * kRoundOff<N>);
 
   template <class N>
   static Symmetric<N> load(const N* h) {
@@ -70,18 +72,18 @@ SolidAnswer<N> Plastic::update(const SolidStep<N>& step, N* history) const {
   N Y, slope;
   yield.evaluate(p0, rate, Y, slope);
   N p = p0;
-  if (any_reaches(trial, N(Y * (1 + kTolerance)))) {
+  if (any_reaches(trial, N(Y * (1 + kTolerance<N>)))) {
     const N is_plastic = where_less(Y, trial, one, constant<N>(0));
     const double elastic = 3 * shear + kinematic_modulus;
     N increment = constant<N>(0);
     for (int i = 0; i < kIterations; ++i) {
       const N excess = is_plastic * (trial - elastic * increment - Y);
-      if (!any_reaches(magnitude(excess), N(kTolerance * Y))) break;
+      if (!any_reaches(magnitude(excess), N(kTolerance<N> * Y))) break;
       increment = larger(N(increment + excess / (elastic + slope)), constant<N>(0));
       p = p0 + increment;
       yield.evaluate(p, rate, Y, slope);
     }
-    const N flow = 1.5 * increment / (trial + 1e-300);
+    const N flow = 1.5 * increment / (trial + kTiny<N>);
     s = combine(one, s, N(-2 * shear * flow), eta);
     if (kinematic_modulus > 0)
       back = combine(one, back, N((2.0 / 3.0) * kinematic_modulus * flow), eta);
@@ -107,7 +109,7 @@ SolidAnswer<N> Plastic::update(const SolidStep<N>& step, N* history) const {
   for (N* c : {&sigma.xx, &sigma.yy, &sigma.zz, &sigma.xy, &sigma.yz, &sigma.zx})
     *c *= answer.alive;
   answer.P = nominal_stress(sigma, step);
-  answer.energy = history[2] + bulk * (J * log_J - J + 1.0) * answer.alive;
+  answer.energy = history[2] + bulk * entropy_gap(N(J - 1.0)) * answer.alive;
   answer.bulk_modulus = constant<N>(bulk);
   answer.shear_modulus = constant<N>(shear);
   return answer;

@@ -50,7 +50,7 @@ struct ShellGlass {
 
     // until the first crack the frame follows the principal axes
     const N mean = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
-    const N radius = square_root(N(half * half + s.xy * s.xy)) + 1e-300;
+    const N radius = square_root(N(half * half + s.xy * s.xy)) + kTiny<N>;
     const N cosine2 = half / radius;
     const N cosine = square_root(larger(N(0.5 * (1.0 + cosine2)), zero));
     const N sine_size = square_root(larger(N(0.5 * (1.0 - cosine2)), zero));

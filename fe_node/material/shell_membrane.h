@@ -28,7 +28,7 @@ struct ShellTensionSheet {
     e[1] += step.strain.yy;
     e[2] += step.strain.xy;
     const N mean = 0.5 * (e[0] + e[1]), half = 0.5 * (e[0] - e[1]), shear = 0.5 * e[2];
-    const N radius = square_root(N(half * half + shear * shear)) + 1e-300;
+    const N radius = square_root(N(half * half + shear * shear)) + kTiny<N>;
     const N e1 = mean + radius, e2 = mean - radius;
     const double plane = youngs_modulus / (1 - poisson_ratio * poisson_ratio);
     const N uniaxial = larger(N(youngs_modulus * e1), zero);

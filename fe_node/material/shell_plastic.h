@@ -7,6 +7,8 @@
 // multiplier g is left: |eta|(g) = Y(p + 2/3 |eta| g). Transverse shears take part in yielding.
 #pragma once
 
+#include <algorithm>
+
 #include "fe_node/material/hardening.h"
 #include "fe_node/material/shell_law.h"
 
@@ -33,12 +35,17 @@ struct ShellPlastic {
 
  private:
   static constexpr int kIterations = 12;
-  static constexpr double kTolerance = 1e-10;  ///< of the yield stress
+  /// Of the yield stress.
+  template <class N>
+  static constexpr double kTolerance = std::max(1e-10, 8 * kRoundOff<N>);
 };
 
 /// Any lane with a >= b?
 inline bool any_reaches(double a, double b) { return a >= b; }
-inline bool any_reaches(const Lanes& a, const Lanes& b) { return !all_positive(b - a); }
+template <class Real>
+bool any_reaches(const LanesOf<Real>& a, const LanesOf<Real>& b) {
+  return !all_positive(b - a);
+}
 
 /// Effective strain of an increment of plane stress that keeps its volume, sqrt(2/3 e:e).
 template <class N>
@@ -79,15 +86,15 @@ PlaneAnswer<N> ShellPlastic::update(const PlaneStep<N>& step, N* history) const 
     for (int i = 0; i < kIterations; ++i) {
       const N ra = 1.0 / (1.0 + a * g), rb = 1.0 / (1.0 + b * g);
       const N ma = mean2 * ra * ra, sb = shear2 * rb * rb;
-      q = square_root(N(ma + sb)) + 1e-300;
+      q = square_root(N(ma + sb)) + kTiny<N>;
       p = p0 + (2.0 / 3.0) * g * q;
       yield.evaluate(p, rate, Y, slope);
       const N excess = is_plastic * (q - Y);
-      if (!any_reaches(magnitude(excess), N(kTolerance * Y))) break;
+      if (!any_reaches(magnitude(excess), N(kTolerance<N> * Y))) break;
       const N q_slope = -(a * ma * ra + b * sb * rb) / q;
       const N residual_slope = q_slope - slope * (2.0 / 3.0) * (q + g * q_slope);
       // the root lies right of a convex start; the step never leaves g >= 0
-      g = larger(N(g - excess / smaller(residual_slope, constant<N>(-1e-300))), constant<N>(0));
+      g = larger(N(g - excess / smaller(residual_slope, constant<N>(-kTiny<N>))), constant<N>(0));
     }
     const N ra = 1.0 / (1.0 + a * g), rb = 1.0 / (1.0 + b * g);
     const N hk = (2.0 / 3.0) * kinematic_modulus * g;

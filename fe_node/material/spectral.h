@@ -19,7 +19,7 @@ template <class N>
 void rotate(N (&a)[3][3], N (&v)[3][3], int p, int q) {
   const int r = 3 - p - q;
   const N d = a[q][q] - a[p][p], off = 2.0 * a[p][q];
-  const N root = square_root(N(d * d + off * off)) + 1e-300;
+  const N root = square_root(N(d * d + off * off)) + kTiny<N>;
   // tan = off / (d + sign(d) root), the smaller rotation
   const N signed_root = where_less(d, constant<N>(0), N(-root), root);
   const N t = off / (d + signed_root);

@@ -22,7 +22,8 @@ inline constexpr double kNearOne = 0.01;
 inline double volume_energy(double J) {
   return std::abs(J - 1) < kNearOne ? volume_energy_near_one(J) : 0.5 * (J * J - 1) - std::log(J);
 }
-inline Lanes volume_energy(const Lanes& J) {
+template <class Real>
+LanesOf<Real> volume_energy(const LanesOf<Real>& J) {
   if (all_positive(kNearOne - magnitude(J - 1.0))) return volume_energy_near_one(J);
   return 0.5 * (J * J - 1.0) - logarithm(J);
 }

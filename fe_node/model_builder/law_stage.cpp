@@ -282,6 +282,7 @@ ElementControls element_controls(BuildContext& c, const Part& part) {
   if (step < 0)
     step = control.time_step ? std::abs(control.time_step->mass_scaled_step) * c.units.time : 0.0;
   controls.minimum_step = step / scale;
+  controls.precision = c.options.precision;
   return controls;
 }
 

@@ -10,6 +10,7 @@
 #include "fe_node/contact/mesh_contact.h"
 #include "fe_node/contact/rigid_surface.h"
 #include "fe_node/deck/deck.h"
+#include "fe_node/element/element_controls.h"
 #include "fe_node/history_requests.h"
 #include "fe_node/model.h"
 
@@ -24,6 +25,7 @@ struct BuildOptions {
   /// s; > 0: elements get mass added until none needs a smaller step (safety factor included).
   /// Negative: as the deck says (*CONTROL_TIMESTEP DT2MS).
   double mass_scaling_step = -1;
+  Precision precision = Precision::Double;
   /// Nodes of this id and above come behind all others in the mesh (a part that may sleep);
   /// 0: no such.
   int last_nodes_from = 0;

@@ -19,6 +19,7 @@ inline FeConfig node_config(const std::string& more) {
   const Scenario scenario = read_scenario(document);
   FeConfig config = read_fe_config(document, scenario);
   config.gravity = 0;
+  config.precision = Precision::Double;
   return config;
 }
 

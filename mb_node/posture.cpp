@@ -341,6 +341,15 @@ PostureSettings read_posture(ConfigTable posture) {
                                   "facing direction about +z; 0: right side to the car");
   s.walking_speed = posture.quantity_or("walking_speed", Dimension::Speed, {0, 5}, 0,
                                         "initial velocity along the heading");
+  constexpr Range kSpin{-20, 20};
+  s.spin.x() =
+      posture.quantity_or("spin_x", Dimension::AngularSpeed, kSpin, 0,
+                          "initial turning of the whole body as one piece about the pelvis's "
+                          "centre of mass, about +x (forward at heading 0)");
+  s.spin.y() = posture.quantity_or("spin_y", Dimension::AngularSpeed, kSpin, 0,
+                                   "the same about +y (to the left): positive falls forward");
+  s.spin.z() = posture.quantity_or("spin_z", Dimension::AngularSpeed, kSpin, 0,
+                                   "the same about +z (upwards): positive turns to the left");
   s.support = posture.choice_or("support", {"harness", "none"}, "harness",
                                 "harness: the weight is carried until the car touches") == "none"
                   ? Support::None

@@ -41,6 +41,7 @@ struct PostureSettings {
   double trunk_flexion = 0, trunk_lean = 0;  ///< rad; lean about +x
   double heading = 0;                        ///< rad about +z; 0: right side to the car
   double walking_speed = 0;                  ///< m/s along the heading
+  Vec3 spin = Vec3::Zero();                  ///< rad/s, W: of the whole body about the pelvis
   Support support = Support::Harness;
   std::vector<Marker> markers;  ///< seen points that the angles are fitted to
 };

@@ -243,7 +243,8 @@ OdeWorld build_world(MbModel& model, const std::vector<Inertia>& blocks) {
     model.reference_offset[i] = -own.com;
     const int body =
         world.add_body(own.mass, own.about_com, X_WB * Pose{Quat::Identity(), own.com});
-    world.set_twist(body, {walking, Vec3::Zero()});
+    const Vec3& spin = config.posture.spin;
+    world.set_twist(body, {walking + spin.cross(world.position(body) - model.X_WB0[0].p), spin});
   }
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& s = segments[i];

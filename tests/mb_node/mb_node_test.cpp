@@ -56,6 +56,20 @@ TEST(MbNode, AttachAddsTheBlocksExactlyAndKeepsTheReferencePoints) {
   }
 }
 
+TEST(MbNode, StartsWalkingAndTurningAboutThePelvisAsOnePiece) {
+  MbNode node(load_config("v2370", RunMode::Coupled,
+                          "[posture]\nheading_deg = 90.0\nwalking_speed_m_s = 1.5\n"
+                          "spin_x_rad_s = 1.0\nspin_y_rad_s = -2.0\nspin_z_deg_s = 180.0\n"));
+  node.attach(with_blocks(node));
+  const Vec3 walking(0, 1.5, 0), spin(1, -2, kPi), pelvis = node.model().X_WB0[0].p;
+  for (const InterfaceBody& body : node.interface_bodies()) {
+    if (body.name == "buck") continue;
+    const Vec3 expected = walking + spin.cross(body.motion.X_WB.p - pelvis);
+    EXPECT_LT((body.motion.V_WB.v - expected).norm(), 1e-12) << body.name;
+    EXPECT_LT((body.motion.V_WB.w - spin).norm(), 1e-12) << body.name;
+  }
+}
+
 TEST(MbNode, TheTorsoBlockReplacesItsOwnMass) {
   MbNode node(load_config("v2370", RunMode::Coupled));
   const int torso = node.model().config.body.find_segment("torso_up");

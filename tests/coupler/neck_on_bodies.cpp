@@ -110,6 +110,17 @@ fe::Model neck_model(const NeckCase& c, double own_mass) {
   return model;
 }
 
+std::vector<BallJoint> ball_joints(const NeckCase& c) {
+  std::vector<BallJoint> joints;
+  for (int side : {1, -1}) {
+    if (!c.has_clavicles) break;
+    const int clavicle = side > 0 ? 1 : 2, arm = clavicle + 2;
+    joints.push_back({0, clavicle, mirrored({0, 0.03, -kTorsoBelow}, side)});
+    joints.push_back({clavicle, arm, mirrored({0, 0.18, -kTorsoBelow}, side)});
+  }
+  return joints;
+}
+
 NeckBodies::NeckBodies(const NeckCase& c) : case_(c) {
   build(std::vector<InterfaceBody>(static_cast<std::size_t>(attached())));
 }
@@ -117,13 +128,13 @@ NeckBodies::NeckBodies(const NeckCase& c) : case_(c) {
 void NeckBodies::build(const std::vector<InterfaceBody>& blocks) {
   world_.emplace(mb::Stepper::Direct);
   world_->set_gravity(Vec3::Zero());
-  offset_.clear();
+  inertia_.clear();
   const auto add = [&](double mass, const Mat3& inertia, const Vec3& p, const Inertia& block) {
     Inertia own = Inertia::of_point(mass, Vec3::Zero());
     own.about_com = inertia;
     const Inertia all = own + block;
     const int body = world_->add_body(all.mass, all.about_com, {Quat::Identity(), p + all.com});
-    offset_.push_back(all.com);
+    inertia_.push_back(all);
     const Vec3 from_torso = p + all.com - Vec3(0, 0, -kTorsoBelow);
     world_->set_twist(body, {case_.spin.cross(from_torso), case_.spin});
     return body;
@@ -135,17 +146,14 @@ void NeckBodies::build(const std::vector<InterfaceBody>& blocks) {
     add(kClavicleMass, sphere_inertia(kClavicleMass, 0.05), mirrored(kClavicle, side),
         blocks[side > 0 ? 1 : 2].block);
   }
-  for (int side : {1, -1}) {
-    const int clavicle = side > 0 ? 1 : 2;
-    const int arm = add(3.0, sphere_inertia(3.0, 0.12), mirrored(kArm, side), {});
-    world_->add_joint(JointKind::Ball, 0, clavicle, mirrored({0, 0.03, -kTorsoBelow}, side));
-    world_->add_joint(JointKind::Ball, clavicle, arm, mirrored({0, 0.18, -kTorsoBelow}, side));
-  }
+  for (int side : {1, -1}) add(3.0, sphere_inertia(3.0, 0.12), mirrored(kArm, side), {});
+  for (const BallJoint& joint : ball_joints(case_))
+    world_->add_joint(JointKind::Ball, joint.parent, joint.child, joint.p);
 }
 
 BodyMotion NeckBodies::motion(int body) const {
   const Pose X_WC = world_->pose(body);
-  const Vec3 back = -(X_WC.q * offset_[static_cast<std::size_t>(body)]);
+  const Vec3 back = -(X_WC.q * inertia_[static_cast<std::size_t>(body)].com);
   return {{X_WC.q, X_WC.p + back}, world_->twist(body).shifted(back)};
 }
 
@@ -205,11 +213,12 @@ MbReply NeckBodies::advance(const MbGrant& grant, RecordSink&) {
   if (grant.want_mobility) {
     std::vector<mb::BodyPoint> points;
     for (int i = 0; i < attached(); ++i)
-      points.push_back({i, -offset_[static_cast<std::size_t>(i)]});
+      points.push_back({i, -inertia_[static_cast<std::size_t>(i)].com});
     reply_.mobility = mb::kMobilitySafety * mb::measure_mobility(*world_, points, h, now_.time);
   }
   for (int k = 0; k < n; ++k) substep(grant, h, k == 0);
   reply_.substeps = n;
+  reply_.first_contact = true;  // no car comes: time counts from the start
   reply_.energy.kinetic = world_->kinetic_energy();
   reply_.energy.interface_work = now_.work;
   for (int i = 0; i < attached(); ++i) reply_.bodies.push_back(motion(i));
@@ -222,6 +231,11 @@ std::vector<std::byte> NeckBodies::save_state() const {
   out.values(world.bodies);
   out.value(now_.time);
   out.value(now_.work);
+  for (const Inertia& body : inertia_) {
+    out.value(body.mass);
+    out.values(body.com);
+    out.values(body.about_com);
+  }
   return out.take();
 }
 
@@ -232,6 +246,11 @@ void NeckBodies::load_state(const std::vector<std::byte>& bytes) {
   world_->restore(world);
   in.value(now_.time);
   in.value(now_.work);
+  for (Inertia& body : inertia_) {
+    in.value(body.mass);
+    in.values(body.com);
+    in.values(body.about_com);
+  }
 }
 
 LatticeNeck::LatticeNeck(const NeckCase& c) : case_(c), model_(neck_model(c, 0)) {
@@ -249,7 +268,7 @@ std::vector<InterfaceBody> LatticeNeck::interface_bodies() const {
 
 std::vector<InterfaceBody> LatticeNeck::place(std::vector<InterfaceBody> bodies) {
   const Vec3 torso(0, 0, -kTorsoBelow);
-  state_ = fe::initial_state(model_, {}, Twist{Vec3::Zero(), case_.spin}.shifted(-torso));
+  state_ = fe::initial_state(model_, {}, bodies.at(0).motion.V_WB.shifted(-torso));
   const std::vector<Inertia> blocks = fe::rebase_bodies(boundary_, bodies, model_, state_);
   for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].block = blocks[k];
   return bodies;

@@ -42,6 +42,13 @@ inline Mat3 sphere_inertia(double mass, double radius) {
   return 0.4 * mass * radius * radius * Mat3::Identity();
 }
 
+/// Of the bodies at their first places, p in W.
+struct BallJoint {
+  int parent = 0, child = 0;
+  Vec3 p = Vec3::Zero();
+};
+std::vector<BallJoint> ball_joints(const NeckCase& c);
+
 /// The bodies of the multibody side; body 0 is the torso, reference points at the centres of mass
 /// before any block is added.
 class NeckBodies : public MbParticipant {
@@ -57,6 +64,9 @@ class NeckBodies : public MbParticipant {
 
   int attached() const { return case_.has_clavicles ? 3 : 1; }
   const mb::OdeWorld& world() const { return *world_; }
+  /// Of each body with its block, about the reference point; after load_state() as the writer of
+  /// that state had it.
+  const std::vector<Inertia>& inertia() const { return inertia_; }
 
  private:
   struct Now {
@@ -69,7 +79,7 @@ class NeckBodies : public MbParticipant {
 
   NeckCase case_;
   std::optional<mb::OdeWorld> world_;
-  std::vector<Vec3> offset_;  ///< engine's centre of mass from the reference point, body axes
+  std::vector<Inertia> inertia_;  ///< its com: the engine's from the reference point, body axes
   Now now_;
   std::optional<Now> saved_;
   MbReply reply_;

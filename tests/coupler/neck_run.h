@@ -1,4 +1,4 @@
-// One coupled run of the lattice neck by direct calls, and what became of it.
+// A coupled run of the lattice neck by direct calls, and what became of one.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +20,13 @@ struct NeckOutcome {
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();  ///< pending carry included
   bool is_stable = true;
 };
+
+/// On one body, pushed so that a light one does not fly away.
+inline NeckCase pushed_neck(double body_mass, double damping_ratio = 0.05) {
+  return {.body_mass = body_mass,
+          .damping_ratio = damping_ratio,
+          .push = std::min(1500.0, 300 * body_mass + 200)};
+}
 
 class CoupledNeck {
  public:
@@ -54,17 +61,12 @@ class CoupledNeck {
         outcome.is_stable = false;
       }
     }
-    outcome.head = fe_.head();
-    note_momenta(outcome);
+    note_now(outcome);
     return outcome;
   }
-
-  NeckBodies& mb() { return mb_; }
-  LatticeNeck& fe() { return fe_; }
-  CouplingState& state() { return state_; }
-
- private:
-  void note_momenta(NeckOutcome& outcome) const {
+  /// Where the head is, and the momenta.
+  void note_now(NeckOutcome& outcome) const {
+    outcome.head = fe_.head();
     outcome.momentum = mb_.world().linear_momentum() + fe_.momentum();
     outcome.angular_momentum = mb_.world().angular_momentum(Vec3::Zero()) + fe_.angular_momentum();
     for (std::size_t k = 0; k < state_.carry.size(); ++k) {
@@ -74,6 +76,11 @@ class CoupledNeck {
     }
   }
 
+  NeckBodies& mb() { return mb_; }
+  LatticeNeck& fe() { return fe_; }
+  CouplingState& state() { return state_; }
+
+ private:
   toy::NoRecords sink_;
   NeckBodies mb_;
   LatticeNeck fe_;

@@ -1,5 +1,6 @@
-// The coupling schemes on the lattice neck: against the neck whole in the finite-element solver,
-// with three bodies on joints, in free flight, and after a save and a restore.
+// The coupling schemes on the lattice neck by direct calls: `implicit` against the neck whole in
+// the finite-element solver, `mic` with three bodies on joints, a save and a restore. The other
+// rows of the acceptance table run as processes (tests/system/coupling_rows_test.cpp).
 #include <gtest/gtest.h>
 
 #include "tests/coupler/neck_run.h"
@@ -7,24 +8,7 @@
 namespace crosswalk::coupling {
 namespace {
 
-class NeckOnOneBody : public testing::TestWithParam<double> {};
-
-TEST_P(NeckOnOneBody, MicFollowsTheNeckThatIsWholeInTheSolver) {
-  const NeckCase c{.body_mass = GetParam(), .push = std::min(1500.0, 300 * GetParam() + 200)};
-  constexpr double kEnd = 40e-3;
-  const WholeNeck whole = run_whole(c, kEnd);
-  const NeckOutcome coupled = CoupledNeck(c, Scheme::Mic).run(20000, kEnd);
-  ASSERT_TRUE(coupled.is_stable);
-  // The head travels millimetres; what is left is the first-order step of the multibody side.
-  EXPECT_LT((coupled.head - whole.head).norm(), 20e-6);
-  EXPECT_NEAR(coupled.energy, whole.energy, 0.005 * whole.peak_energy);
-  EXPECT_NEAR(coupled.drift, 0, 0.005 * whole.peak_energy);
-  EXPECT_LT(coupled.gap, 0.1e-3);
-}
-
-INSTANTIATE_TEST_SUITE_P(Masses, NeckOnOneBody, testing::Values(15.0, 1.0, 0.3, 0.1));
-
-TEST(NeckOnOneBody, ImplicitFollowsItToo) {
+TEST(NeckOnOneBody, ImplicitFollowsTheNeckThatIsWholeInTheSolver) {
   const NeckCase c{.body_mass = 0.3, .push = 300};
   const WholeNeck whole = run_whole(c, 10e-3);
   const NeckOutcome coupled = CoupledNeck(c, Scheme::Implicit).run(20000, 10e-3);
@@ -45,22 +29,6 @@ TEST(NeckOnThreeBodies, MicKeepsToAFineReferenceWithJointsAndAWall) {
     EXPECT_NEAR(coupled.energy, fine.energy, 0.005 * fine.peak_energy);
     EXPECT_LT(coupled.gap, 0.1e-3);
   }
-}
-
-TEST(NeckOnThreeBodies, SpinningFreelyKeepsItsMomenta) {
-  std::vector<double> errors;
-  for (const double step : {10e-6, 5e-6}) {
-    const NeckCase c{.has_clavicles = true, .push = 0, .spin = {4, 2, 5}, .mb_step = step};
-    CoupledNeck neck(c, Scheme::Mic);
-    const NeckOutcome before = neck.run(20000, 20e-6), after = neck.run(20000, 50e-3);
-    ASSERT_TRUE(after.is_stable);
-    EXPECT_LT((after.momentum - before.momentum).norm(), 1e-9 * before.momentum.norm());
-    errors.push_back((after.angular_momentum - before.angular_momentum).norm() /
-                     before.angular_momentum.norm());
-  }
-  // First order in the multibody step.
-  EXPECT_LT(errors[0], 1e-3);
-  EXPECT_NEAR(errors[1], errors[0] / 2, 0.1 * errors[0]);
 }
 
 TEST(NeckOnThreeBodies, SavedAndRestoredWindowsAreTheSameBits) {

@@ -181,6 +181,40 @@ class Fe : public FeParticipant {
   FeReply reply_;
 };
 
+/// Of the spring of Fe at the end of a window, m and m/s.
+struct Stretch {
+  double u = 0, du = 0;
+};
+
+/// Remembers the stretch of every window; part of its state.
+class WatchedFe : public Fe {
+ public:
+  using Fe::Fe;
+  FeReply advance(const FeGrant& grant, RecordSink& sink) override {
+    const FeReply reply = Fe::advance(grant, sink);
+    if (grant.id.phase != Phase::Evaluate && grant.id.ends_window())
+      stretches_.push_back({now().x - now().block_x, now().v - now().block_v});
+    return reply;
+  }
+  std::vector<std::byte> save_state() const override {
+    ByteWriter out;
+    out.list(Fe::save_state());
+    out.list(stretches_);
+    return out.take();
+  }
+  void load_state(const std::vector<std::byte>& bytes) override {
+    ByteReader in(bytes);
+    std::vector<std::byte> own;
+    in.list(own);
+    in.list(stretches_);
+    Fe::load_state(own);
+  }
+  const std::vector<Stretch>& stretches() const { return stretches_; }
+
+ private:
+  std::vector<Stretch> stretches_;
+};
+
 class NoRecords : public RecordSink {
  public:
   void head(const HeadSample&) override {}

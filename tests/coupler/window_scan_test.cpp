@@ -19,8 +19,7 @@ std::string cell(const NeckOutcome& o, const Vec3& head, double energy, double p
 TEST(WindowScan, MicIsStableAtEveryWindowWithAndWithoutDamping) {
   for (const double damping : {0.05, 0.0}) {
     for (const double mass : {15.0, 1.0, 0.3, 0.1}) {
-      const NeckCase c{
-          .body_mass = mass, .damping_ratio = damping, .push = std::min(1500.0, 300 * mass + 200)};
+      const NeckCase c = pushed_neck(mass, damping);
       const WholeNeck whole = run_whole(c, kEnd);
       for (const Scheme scheme : {Scheme::Mic, Scheme::Implicit, Scheme::Staggered}) {
         std::string row =

@@ -48,9 +48,13 @@ struct ShellGlass {
     s.xy = shear * history[kXy];
     if (fracture == GlassFracture::Off) return answer;
 
-    // until the first crack the frame follows the principal axes
     const N mean = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy);
     const N radius = square_root(N(half * half + s.xy * s.xy)) + kTiny<N>;
+    const N timed = history[kAbove1] + history[kSince1] + history[kAbove2];
+    if (all_positive(N(strength - (mean + radius))) && all_positive(N(kTiny<N> - timed)))
+      return answer;  // most of a pane: neither cracked nor about to
+
+    // until the first crack the frame follows the principal axes
     const N cosine2 = half / radius;
     const N cosine = square_root(larger(N(0.5 * (1.0 + cosine2)), zero));
     const N sine_size = square_root(larger(N(0.5 * (1.0 - cosine2)), zero));
@@ -93,7 +97,6 @@ struct ShellGlass {
     s.xy = half2 * ss + nt * cc;
     const N whole = constant<N>(strength);
     answer.intact = (0.5 / strength) * (smaller(cap_n, whole) + smaller(cap_t, whole));
-    answer.thinning = (-poisson_ratio / (1 - poisson_ratio)) * (step.strain.xx + step.strain.yy);
     return answer;
   }
 };

@@ -155,14 +155,16 @@ NodeCommand validate_command() {
                 ->transform(CLI::CheckedTransformer(sizes));
             options.add_option("--out", request->folder,
                                "Folder of the results; runs/validate-<subject> by default");
-            options.add_option("--threads", request->threads, "Threads; 0: all")
+            options.add_option("--threads", request->computing.threads, "Threads; 0: all")
                 ->check(CLI::Range(0, 256));
+            add_precision(options, request->computing.precision);
             std::string footer = "Cases:\n";
             for (const validate::Case& c : validate::cases())
               footer += fmt::format("  {:<10} {:<18} {}\n", c.subject, c.name, c.purpose);
             options.footer(footer);
             return [request] {
-              if (request->threads == 0) request->threads = omp_get_max_threads();
+              if (request->computing.threads == 0)
+                request->computing.threads = omp_get_max_threads();
               if (request->folder.empty()) request->folder = "runs/validate-" + request->subject;
               return validate::run_validation(*request) == 0 ? ExitCode::Done
                                                              : ExitCode::NumericalLimit;

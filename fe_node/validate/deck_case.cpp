@@ -110,7 +110,7 @@ void DeckCase::add_sphere(const Vec3& centre, double radius, const std::vector<i
 
 void DeckCase::end_at(double time) { deck.control.end_time = time / units_.time; }
 
-DeckRun::DeckRun(const Deck& deck, const std::filesystem::path& folder, int threads,
+DeckRun::DeckRun(const Deck& deck, const std::filesystem::path& folder, const Computing& computing,
                  double added_mass_limit) {
   std::filesystem::create_directories(folder);
   const std::filesystem::path path = folder / "case.k";
@@ -119,6 +119,7 @@ DeckRun::DeckRun(const Deck& deck, const std::filesystem::path& folder, int thre
   require_runnable(read, MissingPolicy::Refuse);
   BuildOptions options;
   options.mass_scaling_step = 0;
+  options.precision = computing.precision;
   built_ = build_model(read.deck, options);
   if (added_mass_limit > 0) {
     options.mass_scaling_step = mass_scaling_step_for(built_.model, added_mass_limit);
@@ -131,7 +132,7 @@ DeckRun::DeckRun(const Deck& deck, const std::filesystem::path& folder, int thre
     if (id[n].value > 0 && id[n].value <= static_cast<int>(node_of_.size()))
       node_of_[id[n].value - 1] = static_cast<int>(n);
   state_ = initial_state(built_.model);
-  scratch_ = std::make_unique<Scratch>(built_.model, threads);
+  scratch_ = std::make_unique<Scratch>(built_.model, computing.threads);
   for (const std::string& note : built_.notes) log_info("{}: {}", path.string(), note);
   log_info("{}: {} nodes, mass {:.4g} kg, added {:.3f} %, stable step {:.3f} us", path.string(),
            built_.model.mesh.node_count(), built_.model.total_mass(), 100 * added_mass_share(),

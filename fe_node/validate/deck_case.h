@@ -13,6 +13,7 @@
 #include "fe_node/generate/part_spec.h"
 #include "fe_node/model_builder/model_builder.h"
 #include "fe_node/solver.h"
+#include "fe_node/validate/computing.h"
 
 namespace crosswalk::fe::validate {
 
@@ -52,7 +53,7 @@ class DeckRun {
  public:
   /// Writes folder/case.k and builds the model from what is read back. `added_mass_limit`: share of
   /// the mass that mass scaling may add; 0: none.
-  DeckRun(const Deck& deck, const std::filesystem::path& folder, int threads,
+  DeckRun(const Deck& deck, const std::filesystem::path& folder, const Computing& computing,
           double added_mass_limit = 0);
 
   const Model& model() const { return built_.model; }

@@ -35,7 +35,7 @@ DropOutcome drop(const FreeHead& head, const Drop& d, const CaseContext& context
   deck.add_plane(head.support(n) + kGap * n, -n, head.skin, 0.3);
   deck.start_velocity(speed * n);
   deck.end_at(kEnd);
-  DeckRun run(deck.deck, context.folder / fmt::format("drop_{}", number), context.threads,
+  DeckRun run(deck.deck, context.folder / fmt::format("drop_{}", number), context.computing,
               kAddedMass);
   DropOutcome out{HeadSensor(run), 0, 0, 0, ""};
   const TissueMetrics metrics(

@@ -61,7 +61,7 @@ CaseResult neck_ranges(const CaseContext& context) {
       const std::vector<MomentSample> samples = turn_slowly(
           draft, turning,
           context.folder / fmt::format("axis_{}_{}", m.axis, sense > 0 ? "plus" : "minus"),
-          context.threads);
+          context.computing);
       Series curve{fmt::format("{} {}", m.name, sense > 0 ? "+" : "-"), {}};
       for (const MomentSample& s : samples) curve.points.emplace_back(s.turned / kDegree, s.moment);
       std::vector<double> angles = at_moment(samples, 1.0).levels;
@@ -139,7 +139,7 @@ HeadPath ride(const Sled& sled, Muscles muscles, const CaseContext& context) {
                                                   : rest);
   deck.end_at(sled.end);
   DeckRun run(deck.deck, context.folder / (muscles == Muscles::Volunteer ? "volunteer" : "passive"),
-              context.threads, 0.02);
+              context.computing, 0.02);
   const int head = body_of_part(run, draft, rigid_skull_part());
   const int t1 = body_of_part(run, draft, part_of_level(generate::T1));
   HeadPath path;

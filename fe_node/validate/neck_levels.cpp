@@ -106,7 +106,7 @@ CaseResult neck_levels(const CaseContext& context) {
       const std::vector<MomentSample> samples =
           turn_slowly(upright(spine, level_axes(neck, upper)), turning,
                       context.folder / fmt::format("{}_{}", kLevelNames[level], direction.name),
-                      context.threads);
+                      context.computing);
       plot.series.push_back(moment_curve(kLevelNames[level], samples));
       result.notes.push_back(fmt::format(
           "{:9} {:8}    {}   at the end ({:.1f} deg, {:.1f} N m): {}", direction.name,
@@ -176,7 +176,7 @@ CaseResult neck_bending(const CaseContext& context) {
       }
       const std::vector<MomentSample> samples = turn_slowly(
           draft, turning, context.folder / fmt::format("{}_{}", plot.file, direction.name),
-          context.threads);
+          context.computing);
       plot.series.push_back(moment_curve(direction.name, samples));
       result.notes.push_back(fmt::format("{:9} {}  at the end ({:.0f} deg, {:.1f} N m): {}",
                                          direction.name, angle_row(samples, moments),

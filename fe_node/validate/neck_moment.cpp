@@ -5,7 +5,8 @@
 namespace crosswalk::fe::validate {
 
 std::vector<MomentSample> turn_slowly(const generate::ModelDraft& draft, const Turning& turning,
-                                      const std::filesystem::path& folder, int threads) {
+                                      const std::filesystem::path& folder,
+                                      const Computing& computing) {
   constexpr double kRise = 0.020, kWindow = 0.004;  // s
   constexpr double kDamping = 60;  // 1/s, on masses; its work is left out of the moment [E]
   const double end = 0.5 * kRise + turning.last_angle / turning.rate;
@@ -20,7 +21,7 @@ std::vector<MomentSample> turn_slowly(const generate::ModelDraft& draft, const T
   damping.value = kDamping * unit_factors(UnitSystem::MmTonneS).time;
   deck.deck.dampings.push_back(damping);
   deck.end_at(end);
-  DeckRun run(deck.deck, folder, threads, 0.02);
+  DeckRun run(deck.deck, folder, computing, 0.02);
   const std::vector<int> bodies = spine_bodies(run, draft);
 
   std::vector<MomentSample> samples;

@@ -26,7 +26,8 @@ struct MomentSample {
 
 /// Moment = work done on the body per angle turned, less what damping and motion take.
 std::vector<MomentSample> turn_slowly(const generate::ModelDraft& draft, const Turning& turning,
-                                      const std::filesystem::path& folder, int threads);
+                                      const std::filesystem::path& folder,
+                                      const Computing& computing);
 
 /// The state at a moment, between the samples about it; empty levels when it was not reached.
 MomentSample at_moment(const std::vector<MomentSample>& samples, double moment);

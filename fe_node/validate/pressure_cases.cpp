@@ -70,7 +70,7 @@ BlowOutcome strike(const FreeHead& head, const Blow& blow, const std::vector<Gau
     deck.load_nodes(blow.patch, axis, force);
   }
   deck.end_at(blow.end);
-  DeckRun run(deck.deck, context.folder, context.threads, kAddedMass);
+  DeckRun run(deck.deck, context.folder, context.computing, kAddedMass);
   HeadSensor sensor(run);
   std::vector<PressurePatch> patches;
   BlowOutcome out{.plot = {"pressure", title, "time, ms", "pressure, kPa", {}}};

@@ -63,12 +63,12 @@ BrainResponse turn_skull(const generate::HeadNeck& whole, const Rotation& rotati
   // of the tissue on them. Found from the model itself, then guided.
   Vec3 com = Vec3::Zero();
   {
-    const DeckRun trial(deck.deck, context.folder / sub_folder, 1);
+    const DeckRun trial(deck.deck, context.folder / sub_folder, {});
     com = trial.model().bodies.front().origin;
   }
   guide(deck, rigid_skull_part(), rotation, com);
   deck.end_at(rotation.end);
-  DeckRun run(deck.deck, context.folder / sub_folder, context.threads, 0.02);
+  DeckRun run(deck.deck, context.folder / sub_folder, context.computing, 0.02);
 
   std::vector<int> brain_parts;
   const BuiltModel& built = run.built();

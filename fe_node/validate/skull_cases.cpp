@@ -105,7 +105,7 @@ PressOutcome press(const FreeHead& head, const Place& place, const CaseContext& 
   deck.start_velocity(kSpeed * n);
   deck.add_sphere(head.support(n) + (kAnvil + 1e-4) * n, kAnvil, head.skin, 0.3);
   deck.end_at(kEnd);
-  DeckRun run(deck.deck, context.folder / place.name, context.threads, kAddedMass);
+  DeckRun run(deck.deck, context.folder / place.name, context.computing, kAddedMass);
   const Tables tables(run, head.draft);
   PressOutcome out;
   out.curve.label = place.name;

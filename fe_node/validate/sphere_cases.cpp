@@ -106,7 +106,7 @@ CaseResult sphere_torsion(const CaseContext& context) {
   for (int axis = 0; axis < 6; ++axis)
     deck.guide_part(kShell, axis, axis == 5 ? turning : Points{{0, 0}, {end, 0}});
   deck.end_at(end);
-  DeckRun run(deck.deck, context.folder, context.threads);
+  DeckRun run(deck.deck, context.folder, context.computing);
   std::vector<Probe> probes;
   for (double share : {0.25, 0.50, 0.80}) {
     const int node = node_on_axis(draft.mesh, share * kRadius);
@@ -198,7 +198,7 @@ CaseResult sphere_pressure(const CaseContext& context) {
   for (int axis = 0; axis < 6; ++axis)
     deck.guide_part(kShell, axis, axis == 0 ? speed : Points{{0, 0}, {kEnd, 0}});
   deck.end_at(kEnd);
-  DeckRun run(deck.deck, context.folder, context.threads);
+  DeckRun run(deck.deck, context.folder, context.computing);
   Plot plot{"pressure",
             "Ball in a shell accelerated to 1000 m/s2",
             "time, ms",

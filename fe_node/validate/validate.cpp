@@ -64,7 +64,7 @@ int run_validation(const ValidateRequest& request) {
   for (const Case& c : chosen(request)) {
     const std::filesystem::path folder = request.folder / c.name;
     std::filesystem::create_directories(folder);
-    results.push_back(c.run({request.fidelity, request.threads, folder}));
+    results.push_back(c.run({request.fidelity, request.computing, folder}));
     std::cout << table_text(results.back()) << std::flush;
   }
   for (const std::string& remark : write_results(results, request.folder))

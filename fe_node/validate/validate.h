@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "fe_node/generate/head_neck.h"
+#include "fe_node/validate/computing.h"
 #include "fe_node/validate/measure.h"
 
 namespace crosswalk::fe::validate {
 
 struct CaseContext {
   generate::Fidelity fidelity = generate::Fidelity::Coarse;
-  int threads = 1;
+  Computing computing;
   std::filesystem::path folder;  ///< of this case: its deck, plots
 };
 
@@ -31,7 +32,7 @@ struct ValidateRequest {
   std::string subject;             ///< head, neck, windshield
   std::vector<std::string> names;  ///< of cases; empty: all of the subject
   generate::Fidelity fidelity = generate::Fidelity::Coarse;
-  int threads = 1;
+  Computing computing;
   std::filesystem::path folder;
 };
 

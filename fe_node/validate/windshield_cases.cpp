@@ -163,7 +163,7 @@ Impact strike(WindshieldKind kind, double speed, const CaseContext& context,
     if (part.title == generate::kWindshieldFrame)
       for (int dof = 0; dof < 6; ++dof) deck.guide_part(part.id.value, dof, {{0, 0}, {1, 0}});
   deck.end_at(kEnd);
-  DeckRun run(deck.deck, context.folder / name, context.threads);
+  DeckRun run(deck.deck, context.folder / name, context.computing);
   Impact out;
   const int core = body_named(run.model(), "headform_core");
   std::vector<int> glass;
@@ -242,7 +242,7 @@ CaseResult headform_drop(const CaseContext& context) {
   deck.add_plane({0, 0, -kRadius - 1e-4}, {0, 0, 1}, skin, 0.3);
   deck.start_velocity({0, 0, -std::sqrt(2 * kStandardGravity * kHeight)});
   deck.end_at(kEnd);
-  DeckRun run(deck.deck, context.folder, context.threads);
+  DeckRun run(deck.deck, context.folder, context.computing);
   const int core = body_named(run.model(), "headform_core");
   HeadformTrace trace;
   run.run(kEnd, kSampling, [&](const State& state) { trace.sample(state, core); });
@@ -290,7 +290,7 @@ CaseResult plate_impedance(const CaseContext& context) {
   deck.fix_nodes(edge);
   deck.start_velocity({centre}, {0, 0, -kSpeed});
   deck.end_at(kEnd);
-  DeckRun run(deck.deck, context.folder, context.threads);
+  DeckRun run(deck.deck, context.folder, context.computing);
   const double D = kYoungs * std::pow(kThickness, 3) / 12 / (1 - kPoisson * kPoisson);
   const double Z = 8 * std::sqrt(D * kDensity * kThickness);
   Series ours{"mass on the plate", {}}, exact{"closed form", {}};

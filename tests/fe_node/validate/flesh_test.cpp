@@ -47,7 +47,7 @@ double least_volume(const generate::ModelDraft& draft, const Fold& fold) {
     deck.guide_part(part::kBlockTorsoUp, 3 + axis, rest);
   }
   deck.end_at(fold.time);
-  DeckRun run(deck.deck, std::filesystem::path(testing::TempDir()) / "folded_flesh", 1);
+  DeckRun run(deck.deck, std::filesystem::path(testing::TempDir()) / "folded_flesh", {});
   double least = 1;
   run.run(fold.time, 0.5 * fold.time, [&](const State& state) {
     for (const generate::Hex& hex : draft.mesh.hexes) {

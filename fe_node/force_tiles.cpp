@@ -13,7 +13,6 @@ namespace {
 constexpr int kPointsPerTile = 256;
 
 using Row = Eigen::Map<Eigen::Vector4d, Eigen::Aligned32>;
-using ConstRow = Eigen::Map<const Eigen::Vector4d, Eigen::Aligned32>;
 
 /// Sorted nodes of the corners of a tile. Appends them to the arrivals, `seen` holds the last tile
 /// that met each node.
@@ -98,14 +97,7 @@ void add_corners(const double* corners, const std::uint16_t* row_of_corner, int 
                  double* rows) {
   for (int k = 0; k < count; ++k)
     Row(rows + std::size_t{kCornerStride} * row_of_corner[k]) +=
-        ConstRow(corners + std::size_t{kCornerStride} * k);
-}
-
-Vec3 sum_of_rows(const NodeRows& table, const double* rows, int node) {
-  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-  for (int k = table.begin[node]; k < table.begin[node + 1]; ++k)
-    sum += ConstRow(rows + std::size_t{kCornerStride} * table.row[k]);
-  return sum.head<3>();
+        ForceRow(corners + std::size_t{kCornerStride} * k);
 }
 
 }  // namespace crosswalk::fe

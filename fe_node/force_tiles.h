@@ -51,7 +51,15 @@ ForceTiles make_force_tiles(std::span<const std::unique_ptr<const ElementBlock>>
 /// Adds `count` corners to their rows, in their order.
 void add_corners(const double* corners, const std::uint16_t* row_of_corner, int count,
                  double* rows);
+
+using ForceRow = Eigen::Map<const Eigen::Vector4d, Eigen::Aligned32>;
+
 /// Sum of a node's rows.
-Vec3 sum_of_rows(const NodeRows& table, const double* rows, int node);
+inline Vec3 sum_of_rows(const NodeRows& table, const double* rows, int node) {
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  for (int k = table.begin[node]; k < table.begin[node + 1]; ++k)
+    sum += ForceRow(rows + std::size_t{kCornerStride} * table.row[k]);
+  return sum.head<3>();
+}
 
 }  // namespace crosswalk::fe

@@ -12,9 +12,28 @@
 namespace crosswalk::fe {
 namespace {
 
-constexpr int kNodesPerChunk = 512;
+constexpr int kNodesPerChunk = Scratch::kNodesPerChunk;
 
-int node_chunk_count(int node_count) { return (node_count + kNodesPerChunk - 1) / kNodesPerChunk; }
+void forget_loads(Scratch& scratch) {
+  for (int n : scratch.loaded) scratch.applied[n].setZero();
+  scratch.loaded.clear();
+}
+
+void apply(Scratch& scratch, int node, const Vec3& force) {
+  scratch.applied[node] += force;
+  scratch.loaded.push_back(node);
+}
+
+/// Force on a node: its rows in the order of the tiles, the same bits for any number of threads,
+/// and what has been applied.
+Vec3 force_on(const Model& model, const Scratch& scratch, int node) {
+  const Vec3 force = sum_of_rows(model.tiles.force_rows, scratch.force_rows.data(), node);
+  return scratch.loaded.empty() ? force : Vec3(force + scratch.applied[node]);
+}
+
+Vec3 moment_on(const Model& model, const Scratch& scratch, int node) {
+  return sum_of_rows(model.tiles.moment_rows, scratch.moment_rows.data(), node);
+}
 
 void contact_forces(const Model& model, State& state, Scratch& scratch, StepReport& report) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -44,15 +63,14 @@ void contact_forces(const Model& model, State& state, Scratch& scratch, StepRepo
       report.critical_block = report.critical_element = -1;
     }
   }
-  for (const NodalLoad& load : scratch.contact_loads.nodal)
-    scratch.applied[load.node] += load.force;
+  for (const NodalLoad& load : scratch.contact_loads.nodal) apply(scratch, load.node, load.force);
 }
 
 void nodal_loads(const Model& model, State& state, Scratch& scratch) {
   for (const NodalForce& load : model.nodal_forces) {
     const Vec3 force = load.scale * load.curve.value(state.time) * load.direction;
     for (int n : load.nodes) {
-      scratch.applied[n] += force;
+      apply(scratch, n, force);
       state.energies.external_work += state.last_dt * force.dot(state.nodes[n].velocity());
     }
   }
@@ -69,29 +87,33 @@ void pressure_loads(const Model& model, State& state, Scratch& scratch) {
                  b = state.nodes[n[3]].position() - state.nodes[n[1]].position();
       const Vec3 force = -pressure / (2.0 * corners) * a.cross(b);
       for (int c = 0; c < corners; ++c) {
-        scratch.applied[n[c]] += force;
+        apply(scratch, n[c], force);
         state.energies.external_work += state.last_dt * force.dot(state.nodes[n[c]].velocity());
       }
     }
   }
 }
 
-/// Every node adds its rows in the order of the tiles: the same bits for any number of threads.
-void gather_nodal_forces(const Model& model, const State& state, Scratch& scratch) {
-  const int node_count = awake_node_count(model, state);
-#pragma omp parallel for schedule(static) num_threads(scratch.threads)
-  for (int n = 0; n < node_count; ++n) {
-    scratch.force[n] = sum_of_rows(model.tiles.force_rows, scratch.force_rows.data(), n);
-    if (scratch.has_loads) {
-      scratch.force[n] += scratch.applied[n];
-      scratch.applied[n].setZero();
-    }
-    if (model.has_rotations())
-      scratch.moment[n] = sum_of_rows(model.tiles.moment_rows, scratch.moment_rows.data(), n);
+/// A tied node hands its force to the nodes it follows.
+void tied_loads(const Model& model, Scratch& scratch) {
+  for (const TiedNode& tie : model.tied) {
+    const Vec3 force = force_on(model, scratch, tie.node);
+    for (int i = 0; i < tie.count; ++i) apply(scratch, tie.master[i], tie.weight[i] * force);
   }
-  for (const TiedNode& tie : model.tied)
-    for (int i = 0; i < tie.count; ++i)
-      scratch.force[tie.master[i]] += tie.weight[i] * scratch.force[tie.node];
+}
+
+/// Forces on the nodes that bodies, guides and supports ask for; the others' are added up as they
+/// move.
+void gather_constrained_forces(const Model& model, const State& state, Scratch& scratch) {
+  const int node_count = awake_node_count(model, state);
+  const int count = static_cast<int>(scratch.constrained.size());
+#pragma omp parallel for schedule(static) num_threads(scratch.threads)
+  for (int i = 0; i < count; ++i) {
+    const int n = scratch.constrained[i];
+    if (n >= node_count) continue;
+    scratch.force[n] = force_on(model, scratch, n);
+    if (model.has_rotations()) scratch.moment[n] = moment_on(model, scratch, n);
+  }
 }
 
 bool carries_sleeper(const Model& model, const State& state, std::size_t body) {
@@ -167,45 +189,46 @@ void hold_fixed_nodes(const Model& model, State& state, const Scratch& scratch) 
       }
 }
 
-/// Kick and drift of the free nodes; constrained ones are put right afterwards.
+/// Kick and drift of the nodes that no body carries, in one pass through memory; constrained ones
+/// are put right afterwards.
 void integrate(const Model& model, State& state, Scratch& scratch, const Kick& kick, double dt) {
   const Vec3 gravity = gravity_at(model, state.time);
-  const Eigen::Vector4d g(gravity.x(), gravity.y(), gravity.z(), 0);
   const bool has_gravity = !gravity.isZero(0);
   const double damping = model.settings.mass_damping;
   const int node_count = awake_node_count(model, state);
   const int weighed = model.sleeper ? model.sleeper->first_node : node_count;
-  const int chunk_count = node_chunk_count(node_count);
+  const int chunk_count = (node_count + kNodesPerChunk - 1) / kNodesPerChunk;
 #pragma omp parallel for schedule(static) num_threads(scratch.threads)
   for (int c = 0; c < chunk_count; ++c) {
-    using Row = Eigen::Map<Eigen::Vector4d, Eigen::Aligned32>;  // x y z and a fourth left alone
-    Eigen::Vector4d kinetic = Eigen::Vector4d::Zero();
-    double turning = 0, gravity_work = 0, damped = 0;
+    double kinetic = 0, gravity_work = 0, damped = 0;
     const int last = std::min((c + 1) * kNodesPerChunk, node_count);
     for (int n = c * kNodesPerChunk; n < last; ++n) {
       NodeRecord& node = state.nodes[n];
+      const bool is_constrained = scratch.is_constrained[n];
       if (node.inverse_mass > 0) {
-        const Vec3& f = scratch.force[n];
-        Row velocity(node.v), position(node.x);
-        const Eigen::Vector4d before = velocity;
-        Eigen::Vector4d a = node.inverse_mass * Eigen::Vector4d(f.x(), f.y(), f.z(), 0);
-        if (has_gravity && n < weighed) a += g;
-        const Eigen::Vector4d after = kick.keep * before + kick.gain * a;
-        kinetic += (0.5 * model.mass[n]) * before.cwiseProduct(after);
+        const Vec3 force = is_constrained ? scratch.force[n] : force_on(model, scratch, n);
+        Eigen::Map<Vec3> velocity(node.v), position(node.x);
+        const Vec3 before = velocity;
+        Vec3 a = node.inverse_mass * force;
+        if (has_gravity && n < weighed) a += gravity;
+        const Vec3 after = kick.keep * before + kick.gain * a;
+        const double half_mass = 0.5 / node.inverse_mass;
+        kinetic += half_mass * before.dot(after);
         if (has_gravity && n < weighed)
-          gravity_work += 0.5 * kick.length * model.mass[n] * g.dot(before + after);
+          gravity_work += kick.length * half_mass * gravity.dot(before + after);
         if (damping > 0)
-          damped += 0.25 * kick.length * damping * model.mass[n] * (before + after).squaredNorm();
+          damped += 0.5 * kick.length * damping * half_mass * (before + after).squaredNorm();
         velocity = after;
         position += dt * after;
       }
-      if (model.has_rotations() && model.inertia[n] > 0) {
-        const Vec3 spin = state.spin[n];
-        state.spin[n] = kick.keep * spin + kick.gain / model.inertia[n] * scratch.moment[n];
-        turning += 0.5 * model.inertia[n] * spin.dot(state.spin[n]);
+      if (node.inverse_inertia > 0) {
+        const Vec3 moment = is_constrained ? scratch.moment[n] : moment_on(model, scratch, n);
+        const Vec3 before = state.spin[n];
+        state.spin[n] = kick.keep * before + kick.gain * node.inverse_inertia * moment;
+        kinetic += 0.5 / node.inverse_inertia * before.dot(state.spin[n]);
       }
     }
-    scratch.node_sums[c] = {kinetic.sum() + turning, gravity_work, damped};
+    scratch.node_sums[c] = {kinetic, gravity_work, damped};
   }
   state.energies.kinetic = 0;
   for (int c = 0; c < chunk_count; ++c) {
@@ -273,50 +296,16 @@ void move_tied_nodes(const Model& model, State& state, double dt) {
 
 }  // namespace
 
-Scratch::Scratch(const Model& model, int thread_count) : threads(thread_count) {
-  const std::size_t tile_count = model.tiles.tiles.size();
-  tile_sums.resize(tile_count);
-  taps.resize(tile_count);
-  block_sums.resize(model.blocks.size());
-  force_rows.resize(kCornerStride * model.tiles.force_row_count);
-  moment_rows.resize(kCornerStride * model.tiles.moment_row_count);
-  has_loads = !model.contacts.empty() || !model.nodal_forces.empty() || !model.pressures.empty();
-  const int node_count = model.mesh.node_count();
-  applied.assign(node_count, Vec3::Zero());
-  force.assign(node_count, Vec3::Zero());
-  moment.assign(model.has_rotations() ? node_count : 0, Vec3::Zero());
-  int loads = 0;
-  for (const auto& contact : model.contacts) loads += contact->max_nodal_loads();
-  contact_loads.nodal.reserve(loads);
-  contact_loads.on_body.resize(model.bodies.size());
-  contact_reports.resize(model.contacts.size());
-  body_views.resize(model.bodies.size());
-  body_wrench.resize(model.bodies.size());
-  body_command.resize(model.bodies.size());
-  held.resize(model.fixed.size());
-  node_sums.resize(node_chunk_count(node_count));
-}
-
-std::pair<int, int> Scratch::add_tap(const Model& model, int block, int element, int corner) {
-  const std::vector<ForceTile>& tiles = model.tiles.tiles;
-  const auto holds = [&](const ForceTile& tile) {
-    return tile.block == block && element / kLanes >= tile.first && element / kLanes < tile.last;
-  };
-  const auto tile =
-      static_cast<std::size_t>(std::find_if(tiles.begin(), tiles.end(), holds) - tiles.begin());
-  CW_ASSERT(tile < tiles.size());
-  taps[tile].push_back({element, corner});
-  return {static_cast<int>(tile), static_cast<int>(taps[tile].size()) - 1};
-}
-
 StepReport compute_forces(const Model& model, State& state, Scratch& scratch) {
+  forget_loads(scratch);
   element_forces(model, state, scratch);
   StepReport report = sum_blocks(model, state, scratch);
   find_failed(model, state, scratch);
   contact_forces(model, state, scratch, report);
   nodal_loads(model, state, scratch);
   pressure_loads(model, state, scratch);
-  gather_nodal_forces(model, state, scratch);
+  tied_loads(model, scratch);
+  gather_constrained_forces(model, state, scratch);
   sum_body_wrenches(model, state, scratch);
   return report;
 }
@@ -345,6 +334,12 @@ StepReport advance_step(const Model& model, State& state, Scratch& scratch, doub
     scratch.body_command[b] = state.bodies[b].V_WB;
   move(model, state, scratch, dt);
   return report;
+}
+
+std::vector<Vec3> nodal_forces(const Model& model, const Scratch& scratch) {
+  std::vector<Vec3> forces;
+  for (int n = 0; n < model.mesh.node_count(); ++n) forces.push_back(force_on(model, scratch, n));
+  return forces;
 }
 
 double next_step(const Model& model, const State& state, const StepReport& report) {

@@ -27,9 +27,12 @@ struct Scratch {
   std::vector<BlockSums> block_sums;
   LaneVector force_rows, moment_rows;  ///< see force_tiles.h
   std::vector<std::vector<Tap>> taps;  ///< per tile
-  bool has_loads = false;              ///< the model has contacts or loads on nodes
-  std::vector<Vec3> applied;           ///< N, contact and loads on nodes of this step
-  std::vector<Vec3> force, moment;     ///< N, N m, on nodes
+  std::vector<Vec3> applied;           ///< N, by contacts, loads and ties in this step
+  std::vector<int> loaded;             ///< nodes with such a load, some more than once
+  /// Nodes of bodies, guides and supports, and the force and moment on each, N, N m.
+  std::vector<int> constrained;
+  std::vector<char> is_constrained;  ///< per node
+  std::vector<Vec3> force, moment;   ///< per node; of constrained ones only
   ContactLoads contact_loads;
   FailedElements failed;  ///< found again from the histories whenever their number changes
   std::vector<ContactReport> contact_reports;
@@ -37,12 +40,18 @@ struct Scratch {
   std::vector<Wrench> body_wrench;  ///< on each body about its origin, elements and contacts
   std::vector<Twist> body_command;  ///< next twist of driven bodies; see move()
   std::vector<Vec3> held;           ///< positions of fixed nodes before the move
-  std::vector<std::array<double, 3>> node_sums;
+  static constexpr int kNodesPerChunk = 512;
+  std::vector<std::array<double, 3>> node_sums;  ///< per chunk, added up in their order
+
+ private:
+  void list_constrained(const Model& model);
 };
 
 /// Forces at the present positions and the energies that go with them. Throws NumericalError when
 /// an element is inverted or a force is not a number.
 StepReport compute_forces(const Model& model, State& state, Scratch& scratch);
+/// On every node, with those forces and before the move, N: elements, contacts, loads and ties.
+std::vector<Vec3> nodal_forces(const Model& model, const Scratch& scratch);
 /// Kick and drift by dt with those forces. Driven bodies take scratch.body_command.
 void move(const Model& model, State& state, Scratch& scratch, double dt);
 /// Both, with driven bodies keeping their twist.

@@ -10,6 +10,10 @@ bool moves_freely(const Model& model, int node) {
   return model.body_of_node[node] < 0 && model.mass[node] > 0;
 }
 
+bool turns_freely(const Model& model, int node) {
+  return model.body_of_node[node] < 0 && model.has_rotations() && model.inertia[node] > 0;
+}
+
 BodyState initial_body(const RigidBody& body, const Pose& X_WD, const Twist& V_WD) {
   BodyState state;
   state.X_WB = X_WD * Pose{Quat::Identity(), body.origin};
@@ -44,6 +48,7 @@ State initial_state(const Model& model, const Pose& X_WD, const Twist& V_WD) {
     state.nodes[n].set_position(X_WD * p_DN);
     state.nodes[n].set_velocity(V_WD.shifted(X_WD.q * p_DN).v);
     state.nodes[n].inverse_mass = moves_freely(model, n) ? 1.0 / model.mass[n] : 0.0;
+    state.nodes[n].inverse_inertia = turns_freely(model, n) ? 1.0 / model.inertia[n] : 0.0;
   }
   std::vector<char> is_started(node_count, 0);
   for (const StartVelocity& start : model.start_velocities)

@@ -11,10 +11,10 @@
 namespace crosswalk::fe {
 
 struct alignas(64) NodeRecord {
-  double x[3] = {0, 0, 0};  ///< position at t, m
-  double inverse_mass = 0;  ///< 1/kg; zero for a node that a constraint moves
-  double v[3] = {0, 0, 0};  ///< velocity at t - dt/2 (leap-frog), m/s
-  double spare = 0;
+  double x[3] = {0, 0, 0};     ///< position at t, m
+  double inverse_mass = 0;     ///< 1/kg; zero for a node that a constraint moves
+  double v[3] = {0, 0, 0};     ///< velocity at t - dt/2 (leap-frog), m/s
+  double inverse_inertia = 0;  ///< 1/(kg m2) of a shell's or beam's node; zero likewise
 
   Vec3 position() const { return {x[0], x[1], x[2]}; }
   Vec3 velocity() const { return {v[0], v[1], v[2]}; }

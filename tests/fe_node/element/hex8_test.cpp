@@ -15,7 +15,7 @@ const Elastic kSteel = Elastic::from_young(7850, 210e9, 0.3);
 std::vector<Vec3> forces_at(const Model& model, State& state) {
   Scratch scratch(model, 1);
   compute_forces(model, state, scratch);
-  return scratch.force;
+  return nodal_forces(model, scratch);
 }
 
 TEST(Hex8, VolumeOfAWarpedBrickIsExact) {
@@ -99,7 +99,7 @@ TEST(Hex8, ForcesAreTheSlopeOfTheEnergy) {
                                                                        std::sin(7.0 * n)));
   Scratch scratch(model, 1);
   compute_forces(model, state, scratch);
-  const std::vector<Vec3> force = scratch.force;
+  const std::vector<Vec3> force = nodal_forces(model, scratch);
   const auto energy = [&] {
     compute_forces(model, state, scratch);
     return state.energies.internal + state.energies.hourglass_stored;

@@ -33,7 +33,7 @@ std::vector<Vec3> force_with_end_at(Model& model, const Vec3& end) {
   state.nodes.back().set_position(end);
   Scratch scratch(model, 1);
   compute_forces(model, state, scratch);
-  return scratch.force;
+  return nodal_forces(model, scratch);
 }
 
 TEST(Line, TrussPullsAlongItsAxisAndACableDoesNotPush) {

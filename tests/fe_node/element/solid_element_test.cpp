@@ -23,7 +23,7 @@ class EverySolid : public testing::TestWithParam<SolidForm> {
 std::vector<Vec3> forces_at(const Model& model, State& state) {
   Scratch scratch(model, 1);
   compute_forces(model, state, scratch);
-  return scratch.force;
+  return nodal_forces(model, scratch);
 }
 
 /// Outer nodes are those of faces of the unwarped unit box: the first 64 nodes stand in its order.
@@ -78,7 +78,7 @@ TEST_P(EverySolid, ForcesAreTheSlopeOfTheEnergyAndBalance) {
                                             std::sin(7.0 * static_cast<double>(n))));
   Scratch scratch(model, 1);
   compute_forces(model, state, scratch);
-  const std::vector<Vec3> force = scratch.force;
+  const std::vector<Vec3> force = nodal_forces(model, scratch);
   Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
   for (std::size_t n = 0; n < force.size(); ++n) {
     sum += force[n];
@@ -187,7 +187,7 @@ TEST(SolidElements, AFailedElementIsFlaggedAndCarriesNothing) {
     EXPECT_EQ(scratch.failed.count, count) << name_of(form);
     for (int e = 0; e < count; ++e)
       EXPECT_TRUE(scratch.failed.contains(model.blocks[0]->kind(), e)) << name_of(form);
-    for (const Vec3& f : scratch.force) EXPECT_EQ(f.norm(), 0);
+    for (const Vec3& f : nodal_forces(model, scratch)) EXPECT_EQ(f.norm(), 0);
   }
 }
 

@@ -136,7 +136,8 @@ FeConfig read_fe_config(ConfigDocument& document, const Scenario& scenario) {
                                      "Share of the smallest stable step that is taken.");
   config.added_mass_limit =
       fe.quantity_or("added_mass_limit", Dimension::None, {0, 0.05}, 0.01,
-                     "Share of the model's mass that mass scaling may add; 0: no scaling.");
+                     "Share of the mass of head and neck (the windshield does not count) that mass "
+                     "scaling may add, and never more than 5 % of a part; 0: no scaling.");
   if (fe.choice_or("precision", {"double", "single"}, "single",
                    "Numbers in which elements compute; nodes and sums are double always.") ==
       "double")

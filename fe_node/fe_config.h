@@ -45,7 +45,7 @@ struct FeConfig {
   double gravity = 0;  ///< m/s2, downwards
   double step_scale = 0.9;
   Precision precision = Precision::Single;
-  double added_mass_limit = 0.01;  ///< share of the whole mass that mass scaling may add
+  double added_mass_limit = 0.01;  ///< share of head and neck that mass scaling may add
   double field_interval = 1e-3;    ///< s; 0: none
   double tissue_interval = 1e-3;   ///< s between published metrics
   double strain_interval = 2e-4;   ///< s between samples of the strain peaks

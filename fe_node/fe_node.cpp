@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,6 +33,18 @@ std::vector<TissueRegion> regions_of(const BuiltModel& built, const std::string&
   return regions;
 }
 
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Without added mass and without what sleeps, kg: what added mass is a share of.
+double head_neck_mass(const Model& model) {
+  double mass = model.total_mass() - sum_of(model.added_mass);
+  if (!model.sleeper) return mass;
+  for (int n = model.sleeper->first_node; n < model.mesh.node_count(); ++n) mass -= model.mass[n];
+  return mass - model.bodies[model.sleeper->body].own.mass;
+}
+
 }  // namespace
 
 FeNode::FeNode(FeConfig config, int threads, std::filesystem::path folder)
@@ -51,14 +64,14 @@ FeNode::FeNode(FeConfig config, int threads, std::filesystem::path folder)
   tissue_ = TissueMetrics(model, regions_of(node_.built, kBrainParts));
   scratch_.emplace(model, threads_);
   cut_neck(node_.built.part_sets[head].second);
-  double added = 0;
-  for (double m : model.added_mass) added += m;
+  const double added = sum_of(model.added_mass);
   log_info(
       "model: {} nodes, {} hexahedra, {} shells, {} lines, mass {:.3f} kg (head {:.3f} kg), added "
-      "mass {:.4f} kg, stable step {:.3f} us, elements in {} precision",
+      "mass {:.4f} kg, {:.2f} % of head and neck, stable step {:.3f} us, elements in {} precision",
       model.mesh.node_count(), model.mesh.table(ElementKind::Hex8).size(),
       model.mesh.table(ElementKind::Quad4).size(), model.mesh.table(ElementKind::Line2).size(),
-      model.total_mass(), inertia.mass, added, 1e6 * initial_stable_step(model),
+      model.total_mass(), inertia.mass, added, 100 * added / head_neck_mass(model),
+      1e6 * initial_stable_step(model),
       config_.precision == Precision::Double ? "double" : "single");
   for (std::size_t p = 0; p < model.mesh.parts.size(); ++p)
     if (model.added_mass[p] > 0)
@@ -175,7 +188,7 @@ FeReply FeNode::run_window(const FeGrant& grant) {
   reply.damping = e.damping + e.viscous;
   reply.external_work = e.external_work;
   reply.interface_work = e.interface_work;
-  for (double m : model.added_mass) reply.added_mass += m;
+  reply.added_mass = sum_of(model.added_mass);
   Vec3 on_car = Vec3::Zero();
   for (std::size_t c : node_.car_contacts) on_car += scratch_->contact_reports[c].force;
   reply.head_contact_force = on_car.norm();
@@ -252,9 +265,7 @@ std::string FeNode::description() const {
     triangles.push_back({corner(0), corner(1), corner(2)});
     if (!facet.is_triangle()) triangles.push_back({corner(0), corner(2), corner(3)});
   }
-  double mass = node_.built.model.total_mass();
-  for (double added : node_.built.model.added_mass) mass -= added;
-  const json text = {{"mass_kg", mass},
+  const json text = {{"mass_kg", head_neck_mass(node_.built.model)},
                      {"regions", tissue_.names()},
                      {"parts", parts},
                      {"head_surface", {{"vertices_m", vertices}, {"triangles", triangles}}}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fe_node/generate/even_surface.h"
 #include "fe_node/generate/part_ids.h"
 
 namespace crosswalk::fe::generate {
@@ -18,6 +19,19 @@ auto between(const CubedSphere& sphere, const HeadShape& shape, double share, Ra
     const HeadShape::Ray ray = shape.ray(sphere.direction(s));
     return shape.centre() + ray.direction * ((1 - share) * ray.*from + share * ray.*to);
   };
+}
+
+/// Surface directions that follow the middle of the cranium half as far as the inside does.
+std::vector<Vec3> lifted_directions(const CubedSphere& sphere, const HeadShape& shape,
+                                    double lift) {
+  std::vector<Vec3> directions;
+  for (int s = 0; s < sphere.surface_size(); ++s) {
+    Vec3 u = sphere.direction(s);
+    const double height = shape.middle_z(u.x()) / shape.half_height(u.x());
+    u.z() += 0.5 * lift * height * (1 - u.z() * u.z());
+    directions.push_back(u.normalized());
+  }
+  return directions;
 }
 
 constexpr double kMeanInwards = 0.84;  ///< brain surface over skin, seen from the centre
@@ -43,15 +57,18 @@ HeadMesh add_cranium(MeshDraft& draft, const HeadShape& shape, const HeadResolut
                 .skull_inner = {},
                 .skull_outer = {},
                 .skin = {}};
-  const CubedSphere& sphere = head.sphere;
+  CubedSphere& sphere = head.sphere;
+  if (resolution.lift > 0) sphere.set_directions(lifted_directions(sphere, shape, resolution.lift));
+  if (resolution.even_sweeps > 0)
+    sphere.set_directions(even_directions(sphere, shape, resolution.even_sweeps));
   const auto place = [&](const Vec3& p) -> Vec3 {
     const double radius = p.norm();
-    if (radius == 0) return shape.centre();
-    const HeadShape::Ray ray = shape.ray(p / radius);
+    const HeadShape::Ray ray = shape.ray(radius > 0 ? Vec3(p / radius) : Vec3::UnitX());
     const double at_surface = ray.brain / ray.skin;
     // A factor that depends on direction alone would tear the cells at the centre.
     const double inwards = kMeanInwards + (at_surface - kMeanInwards) * radius * radius;
-    return shape.centre() + inwards * shape.spread(p);
+    const double lift = resolution.lift * shape.middle_z(p.x()) * (1 - radius * radius);
+    return shape.centre() + inwards * shape.spread(p) + Vec3(0, 0, lift);
   };
   head.brain_surface = add_ball(draft, sphere, place,
                                 [&](const Vec3& p) { return brain_part(place(p), shape.scale()); });

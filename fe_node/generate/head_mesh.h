@@ -20,6 +20,10 @@ struct HeadResolution {
   int csf_layers = 1;
   int skull_layers = 2;
   int scalp_layers = 1;
+  /// Cells follow the middle between the cranium's roof and floor by so much: the anterior floor is
+  /// high, and cells that start from one centre would be flat above it. 1: the middle itself.
+  double lift = 0;
+  int even_sweeps = 0;  ///< see even_directions()
 };
 
 struct HeadMesh {

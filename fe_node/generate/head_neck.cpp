@@ -27,14 +27,34 @@ struct Resolution {
   int levels_above_chin, levels_below_chin;
 };
 
+// Of finer meshes the shape of a few cells would set the time step, of the coarse one the thin CSF
+// does.
+constexpr double kLift = 0.7;
+
 Resolution resolution_of(Fidelity fidelity) {
   switch (fidelity) {
     case Fidelity::Coarse:
       break;
     case Fidelity::Medium:
-      return {{.n = 22, .csf_layers = 1, .skull_layers = 2, .scalp_layers = 2}, {6, 3, 2}, 12, 12};
+      return {{.n = 22,
+               .csf_layers = 1,
+               .skull_layers = 2,
+               .scalp_layers = 2,
+               .lift = kLift,
+               .even_sweeps = 30},
+              {6, 3, 2},
+              12,
+              12};
     case Fidelity::Fine:
-      return {{.n = 40, .csf_layers = 2, .skull_layers = 3, .scalp_layers = 3}, {8, 6, 3}, 22, 22};
+      return {{.n = 40,
+               .csf_layers = 2,
+               .skull_layers = 3,
+               .scalp_layers = 3,
+               .lift = kLift,
+               .even_sweeps = 30},
+              {8, 6, 3},
+              22,
+              22};
   }
   return {{.n = 10, .csf_layers = 1, .skull_layers = 2, .scalp_layers = 1}, {4, 2, 1}, 6, 6};
 }

@@ -31,6 +31,14 @@ class HeadShape {
   /// Maps the unit ball onto the solid cranium, relative to the centre; the unit sphere becomes the
   /// skin.
   Vec3 spread(const Vec3& unit_ball_point) const;
+  /// Height above the centre of the middle between roof and floor, and half their distance, over
+  /// the lengthwise position in the unit ball, m.
+  double middle_z(double ux) const {
+    return 0.5 * (half_axis_z(ux, true) - half_axis_z(ux, false));
+  }
+  double half_height(double ux) const {
+    return 0.5 * (half_axis_z(ux, true) + half_axis_z(ux, false));
+  }
   /// The unit vector whose spread() points along d, from the centre.
   Vec3 on_ball(const Vec3& d) const;
   /// Distances from the centre to the layer surfaces on the ray through spread(u), u a unit vector.

@@ -38,6 +38,7 @@ CubedSphere::CubedSphere(int n) : n_(n) {
         if (i % n != 0 && j % n != 0 && k % n != 0) continue;
         index_[core_index(i, j, k)] = surface_size();
         surface_.push_back({i, j, k});
+        direction_.push_back(equiangular(lattice_cube(surface_.back(), n)));
       }
   // The two lattice directions of each face turn towards the outside: e_a x e_b = outward normal.
   for (int axis = 0; axis < 3; ++axis)
@@ -57,10 +58,6 @@ CubedSphere::CubedSphere(int n) : n_(n) {
           quads_.push_back(quad);
         }
     }
-}
-
-Vec3 CubedSphere::direction(int surface_node) const {
-  return equiangular(lattice_cube(surface_[surface_node], n_));
 }
 
 Vec3 CubedSphere::core_position(int i, int j, int k) const {

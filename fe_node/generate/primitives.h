@@ -8,6 +8,7 @@
 
 #include <array>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "common/spatial.h"
@@ -31,7 +32,9 @@ class CubedSphere {
   /// 6 n^2 quads of surface nodes, counter-clockwise seen from outside.
   const std::vector<std::array<int, 4>>& quads() const { return quads_; }
   /// Unit vector of a surface node.
-  Vec3 direction(int surface_node) const;
+  const Vec3& direction(int surface_node) const { return direction_[surface_node]; }
+  /// Other ones than the equiangular.
+  void set_directions(std::vector<Vec3> directions) { direction_ = std::move(directions); }
   /// Node of the core inside the unit ball; the outermost ones lie at radius kCoreRadius.
   Vec3 core_position(int i, int j, int k) const;
 
@@ -41,6 +44,7 @@ class CubedSphere {
   int n_;
   std::vector<std::array<int, 3>> surface_;
   std::vector<int> index_;
+  std::vector<Vec3> direction_;
   std::vector<std::array<int, 4>> quads_;
 };
 

@@ -35,6 +35,17 @@ TEST(GeneratedModel, StableStepIsAboutOneMicrosecond) {
   for (const double added : built.model.added_mass) EXPECT_EQ(added, 0);
 }
 
+// 1.41 us is the step of a brain cell of the mean size, 3.5 mm, that were a cube.
+TEST(GeneratedModel, ShapeOfMediumCellsCostsLittleOfTheStep) {
+  generate::HeadNeckSpec spec;
+  spec.fidelity = generate::Fidelity::Medium;
+  BuildOptions options;
+  options.mass_scaling_step = 0;
+  BuiltModel built = build_model(generate::generate_head_neck(spec), options);
+  built.model.settings.step_scale = 1;
+  EXPECT_GT(mass_scaling_step_for(built.model, 0.01), 1.15e-6);
+}
+
 TEST(GeneratedModel, IsTheSameInOtherUnits) {
   const auto built_in = [](UnitSystem units) {
     generate::HeadNeckSpec spec;

@@ -25,7 +25,7 @@ class Joint final : public ContactInterface {
       omega2 += k * sum;
     }
     stable_step_ = 2 / std::sqrt(2 * omega2);
-    if (!spec_.keeps_axis) return;
+    if (spec_.axes == JointAxes::Free) return;
     const double spin = a.spin_mobility() + b.spin_mobility();
     axis_stiffness_ = spec_.stiffness_scale / (spin * step * step);
     axis_damping_ = 2 * spec_.damping_ratio * std::sqrt(axis_stiffness_ / spin);
@@ -46,10 +46,13 @@ class Joint final : public ContactInterface {
       add(in_a * at(first));
       add(in_b * at(second));
     }
-    if (spec_.hold == JointHold::All) return;
-    const Vec3 axis = (at(spec_.axis.second) - at(spec_.axis.first)).normalized();
-    add(in_a.q * axis);
-    add(in_b.q * axis);
+    if (!has_axes()) return;
+    const auto direction = [&](const std::pair<int, int>& nodes) {
+      return Vec3((at(nodes.second) - at(nodes.first)).normalized());
+    };
+    add(in_a.q * direction(spec_.axis));
+    const bool has_arms = spec_.axes == JointAxes::AtRightAngles;
+    add(in_b.q * direction(has_arms ? spec_.axis_b : spec_.axis));
   }
 
   int max_nodal_loads() const override { return 0; }
@@ -60,7 +63,7 @@ class Joint final : public ContactInterface {
     const BodyMotionView &a = body(context, spec_.body_a), &b = body(context, spec_.body_b);
     const double* axes = history.values.data() + 6 * spec_.points.size();
     Vec3 axis = Vec3::Zero();
-    if (spec_.hold != JointHold::All) axis = a.X_WB.q * Vec3(Eigen::Map<const Vec3>(axes));
+    if (has_axes()) axis = a.X_WB.q * Vec3(Eigen::Map<const Vec3>(axes));
     double omega2 = 0;
     for (std::size_t i = 0; i < spec_.points.size(); ++i) {
       const double* place = history.values.data() + 6 * i;
@@ -85,10 +88,13 @@ class Joint final : public ContactInterface {
     }
     report.active = static_cast<int>(spec_.points.size());
     report.stable_step = stable_step_;
-    if (spec_.hold == JointHold::All) return report;
-    if (spec_.keeps_axis) {
-      keep_axis(a, b, axis, b.X_WB.q * Vec3(Eigen::Map<const Vec3>(axes + 3)), context.dt, loads,
-                report);
+    if (!has_axes()) return report;
+    if (spec_.axes != JointAxes::Free) {
+      const Vec3 axis_b = b.X_WB.q * Vec3(Eigen::Map<const Vec3>(axes + 3));
+      if (spec_.axes == JointAxes::Parallel)
+        keep_parallel(a, b, axis, axis_b, context.dt, loads, report);
+      else
+        keep_at_right_angles(a, b, axis, axis_b, context.dt, loads, report);
       omega2 += axis_stiffness_ * (a_.spin_mobility() + b_.spin_mobility());
     }
     report.stable_step = 2 / std::sqrt(2 * omega2);  // arms change as the bodies slide
@@ -102,6 +108,8 @@ class Joint final : public ContactInterface {
   static Wrench& on(ContactLoads& loads, int index) {
     return loads.on_body[static_cast<std::size_t>(index)];
   }
+
+  bool has_axes() const { return spec_.hold != JointHold::All || spec_.axes != JointAxes::Free; }
 
   Vec3 held(const Vec3& v, const Vec3& axis) const {
     switch (spec_.hold) {
@@ -117,8 +125,9 @@ class Joint final : public ContactInterface {
 
   /// Couples that turn the axis of b back to that of a: the potential is k/2 times the square of
   /// the sine between them.
-  void keep_axis(const BodyMotionView& a, const BodyMotionView& b, const Vec3& axis_a,
-                 const Vec3& axis_b, double dt, ContactLoads& loads, ContactReport& report) const {
+  void keep_parallel(const BodyMotionView& a, const BodyMotionView& b, const Vec3& axis_a,
+                     const Vec3& axis_b, double dt, ContactLoads& loads,
+                     ContactReport& report) const {
     const auto across = [&](const Vec3& v) { return Vec3(v - axis_a.dot(v) * axis_a); };
     const Vec3 off = across(axis_b), rate = across((b.V_WB.w - a.V_WB.w).cross(axis_b));
     const Vec3 couple = axis_b.cross(Vec3(axis_stiffness_ * off + axis_damping_ * rate));
@@ -126,6 +135,20 @@ class Joint final : public ContactInterface {
     on(loads, spec_.body_b).tau -= couple;
     report.stored += 0.5 * axis_stiffness_ * off.squaredNorm();
     report.damping_dissipated += axis_damping_ * rate.squaredNorm() * dt;
+  }
+
+  /// Couples about the common normal of the arms, so without a moment about either: the potential
+  /// is k/2 times the square of the cosine between them.
+  void keep_at_right_angles(const BodyMotionView& a, const BodyMotionView& b, const Vec3& arm_a,
+                            const Vec3& arm_b, double dt, ContactLoads& loads,
+                            ContactReport& report) const {
+    const Vec3 normal = arm_a.cross(arm_b);
+    const double off = arm_a.dot(arm_b), rate = (a.V_WB.w - b.V_WB.w).dot(normal);
+    const Vec3 couple = (axis_stiffness_ * off + axis_damping_ * rate) * normal;
+    on(loads, spec_.body_a).tau -= couple;
+    on(loads, spec_.body_b).tau += couple;
+    report.stored += 0.5 * axis_stiffness_ * off * off;
+    report.damping_dissipated += axis_damping_ * rate * rate * dt;
   }
 
   JointSpec spec_;

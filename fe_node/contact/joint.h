@@ -2,7 +2,8 @@
 // stiff springs with dampers. One point makes a spherical joint, two a revolute, three a locked
 // one. Held only across an axis fixed in the first body (that of its first two points), two points
 // make a cylindrical joint and three a translational one; held only along it, with the axis kept
-// parallel, a planar one.
+// parallel, a planar one. One point with an arm of each body kept at right angles makes a
+// universal joint (of Cardan or Hooke): the bodies turn freely about the two arms.
 //
 // Both forces of a point act at one place, so a joint has neither resultant nor moment and momenta
 // are kept to round-off. Stiffness k = scale m*/dt^2 per point, m* = 1 / (w_a + w_b) with w = 1/M +
@@ -22,15 +23,23 @@ namespace crosswalk::fe {
 /// Which part of a gap between two points is held; the axis is that of the joint.
 enum class JointHold { All, AcrossAxis, AlongAxis };
 
+/// What couples keep of an axis of a and one of b.
+enum class JointAxes {
+  Free,
+  Parallel,  ///< b's is parallel to a's when the run starts
+  AtRightAngles
+};
+
 struct JointSpec {
   std::string name;
   int body_a = 0, body_b = 0;               ///< indices into Model::bodies
   std::vector<std::pair<int, int>> points;  ///< nodes of a and of b that stay together
   JointHold hold = JointHold::All;
-  std::pair<int, int> axis{-1, -1};  ///< two nodes of a, for the holds that have an axis
-  bool keeps_axis = false;           ///< the axis in b stays parallel to that in a
-  double stiffness_scale = 0.1;      ///< of m*/dt^2
-  double damping_ratio = 0.1;        ///< of critical
+  JointAxes axes = JointAxes::Free;
+  std::pair<int, int> axis{-1, -1};    ///< two nodes of a, where `hold` or `axes` need one
+  std::pair<int, int> axis_b{-1, -1};  ///< two nodes of b, for axes at right angles
+  double stiffness_scale = 0.1;        ///< of m*/dt^2
+  double damping_ratio = 0.1;          ///< of critical
 };
 
 /// What joints must know of a body, of Model::finish().

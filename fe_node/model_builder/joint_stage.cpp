@@ -1,4 +1,8 @@
 // *CONSTRAINED_JOINT cards to penalty joints between rigid bodies.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include <fmt/format.h>
 
 #include "fe_node/model_builder/build_context.h"
@@ -7,11 +11,11 @@ namespace crosswalk::fe {
 namespace {
 
 /// What a kind of joint holds: pairs of nodes on its card, how many of them are held and in which
-/// part of their gap, and whether the axis from node 1 to node 3 stays parallel.
+/// part of their gap, and what is kept of the axes from node 1 to 3 and from node 2 to 4.
 struct JointForm {
   int pairs = 0, held = 0;
   JointHold hold = JointHold::All;
-  bool keeps_axis = false;
+  JointAxes axes = JointAxes::Free;
 };
 
 JointForm form_of(JointKind kind) {
@@ -27,10 +31,11 @@ JointForm form_of(JointKind kind) {
     case JointKind::Translational:
       return {.pairs = 3, .held = 3, .hold = JointHold::AcrossAxis};
     case JointKind::Planar:
-      return {.pairs = 2, .held = 1, .hold = JointHold::AlongAxis, .keeps_axis = true};
+      return {.pairs = 2, .held = 1, .hold = JointHold::AlongAxis, .axes = JointAxes::Parallel};
     case JointKind::Universal:
-      break;
+      return {.pairs = 2, .held = 1, .axes = JointAxes::AtRightAngles};
   }
+  CW_ASSERT(false);
   return {};
 }
 
@@ -46,33 +51,24 @@ class JointStage {
   void add(const Joint& card) {
     const std::string who = fmt::format("*CONSTRAINED_JOINT {}", card.id.value);
     const JointForm form = form_of(card.kind);
-    if (form.pairs == 0) {
-      c_.problem(card.source, who,
-                 "a spherical, revolute, cylindrical, planar, translational or locking joint",
-                 "another kind");
-      return;
-    }
     JointSpec spec;
     spec.name = card.title.empty() ? fmt::format("joint {}", card.id.value) : card.title;
     spec.stiffness_scale *= card.penalty_scale > 0 ? card.penalty_scale : 1;
     spec.damping_ratio *= card.damping > 0 ? card.damping : 1;
     spec.body_a = spec.body_b = -1;
     spec.hold = form.hold;
-    spec.keeps_axis = form.keeps_axis;
+    spec.axes = form.axes;
     for (int i = 0; i < form.pairs; ++i) {
       const int a = node(card, 2 * i, who), b = node(card, 2 * i + 1, who);
       if (a < 0 || b < 0) return;
       if (!belongs(card, who, a, spec.body_a) || !belongs(card, who, b, spec.body_b)) return;
-      const double gap = (c_.mesh().position[a] - c_.mesh().position[b]).norm();
-      if (i == 0 || gap > largest_gap_) largest_gap_ = gap;
+      if (i == 0 || form.axes != JointAxes::AtRightAngles)
+        largest_gap_ = std::max(largest_gap_, between(a, b).norm());
       if (i < 2) (i == 0 ? spec.axis.first : spec.axis.second) = a;
+      if (i < 2) (i == 0 ? spec.axis_b.first : spec.axis_b.second) = b;
       if (i < form.held) spec.points.emplace_back(a, b);
     }
-    if (form.hold != JointHold::All &&
-        c_.mesh().position[spec.axis.first] == c_.mesh().position[spec.axis.second]) {
-      c_.problem(card.source, who, "an axis from node 1 to node 3", "both at one place");
-      return;
-    }
+    if (!has_sound_axes(card, who, spec)) return;
     const RigidBody &a = c_.model().bodies[spec.body_a], &b = c_.model().bodies[spec.body_b];
     if (spec.body_a == spec.body_b || (a.role != BodyRole::Free && b.role != BodyRole::Free)) {
       c_.problem(card.source, who, "two bodies of which one moves freely",
@@ -92,6 +88,27 @@ class JointStage {
   int node(const Joint& card, int slot, const std::string& who) {
     return c_.node(card.nodes[static_cast<std::size_t>(slot)], card.source, who);
   }
+  Vec3 between(int from, int to) { return c_.mesh().position[to] - c_.mesh().position[from]; }
+
+  bool has_sound_axes(const Joint& card, const std::string& who, const JointSpec& spec) {
+    if (spec.hold == JointHold::All && spec.axes == JointAxes::Free) return true;
+    const Vec3 a = between(spec.axis.first, spec.axis.second);
+    if (a == Vec3::Zero()) {
+      c_.problem(card.source, who, "an axis from node 1 to node 3", "both at one place");
+      return false;
+    }
+    if (spec.axes != JointAxes::AtRightAngles) return true;
+    const Vec3 b = between(spec.axis_b.first, spec.axis_b.second);
+    constexpr double kRightAngle = 1e-3;  // rad; coordinates of a deck have few digits
+    const double off = std::abs(a.dot(b)) / (a.norm() * b.norm());
+    if (off <= kRightAngle) return true;
+    c_.problem(card.source, who, "arms from node 1 to 3 and from node 2 to 4 at right angles",
+               b == Vec3::Zero() ? "nodes 2 and 4 at one place"
+                                 : fmt::format("{:.3g} degrees off", std::asin(std::min(off, 1.0)) *
+                                                                         180 / std::numbers::pi));
+    return false;
+  }
+
   /// The body of a node, the same for all nodes of a side.
   bool belongs(const Joint& card, const std::string& who, int node, int& body) {
     const int found = body_of_node_[node];

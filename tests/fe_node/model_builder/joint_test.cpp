@@ -266,6 +266,79 @@ TEST(Joints, APlanarJointLeavesTheMotionInItsPlane) {
   EXPECT_LT(pushed.body(1).X_WB.q.toRotationMatrix().col(2).head<2>().norm(), 1e-3);
 }
 
+const std::string kUniversal = "*CONSTRAINED_JOINT_UNIVERSAL\n101,201,103,204\n";  // arms y, z
+
+TEST(Joints, AUniversalJointTurnsFreelyAboutItsArmsAlone) {
+  Pair about_y(two_bodies(kFixed) + kUniversal);
+  about_y.start(1, {0, 0, -3}, {0, 30, 0});
+  about_y.run(0.03);
+  EXPECT_NEAR(log_rotation(about_y.body(1).X_WB.q).y(), 30 * 0.03, 1e-4);
+  EXPECT_NEAR(about_y.body(1).V_WB.w.y(), 30, 1e-6 * 30);
+  Pair about_z(two_bodies(kFixed) + kUniversal);
+  about_z.start(1, {0, 3, 0}, {0, 0, 30});
+  about_z.run(0.03);
+  EXPECT_NEAR(about_z.body(1).V_WB.w.z(), 30, 1e-6 * 30);
+  Pair pushed(two_bodies(kFixed) + kUniversal);
+  pushed.start(1, {1, 0, 0}, {5, 0, 0});
+  pushed.run(0.03);
+  EXPECT_LT(log_rotation(pushed.body(1).X_WB.q).norm(), 1e-3);
+  EXPECT_LT((pushed.body(1).X_WB.p - Vec3(0.1, 0, 0)).norm(), 1e-4);
+}
+
+TEST(Joints, AFreePairOnAUniversalJointKeepsItsMomenta) {
+  Pair pair(two_bodies(kFree) + kUniversal);
+  pair.start(1, {0, 3, 1}, {10, -10, 30});
+  const Vec3 momentum = pair.momentum(), spin = pair.spin();
+  pair.run(0.05);
+  const Mat3 a = pair.body(0).X_WB.q.toRotationMatrix(), b = pair.body(1).X_WB.q.toRotationMatrix();
+  EXPECT_GT(log_rotation(Quat(a.transpose() * b)).norm(), 0.5);
+  EXPECT_LT(std::abs(a.col(1).dot(b.col(2))), 1e-3);
+  EXPECT_LT((pair.momentum() - momentum).norm(), 1e-11 * momentum.norm());
+  EXPECT_LT((pair.spin() - spin).norm(), 1e-9 * spin.norm());
+}
+
+/// Hooke: with the shafts at an angle beta and the driving arm at theta from their plane,
+/// omega_2 / omega_1 = cos beta / (1 - sin^2 beta cos^2 theta); no joint does work, so
+/// I_1 omega_1^2 + I_2 omega_2^2 stays.
+TEST(Joints, ShaftsOnAUniversalJointKeepTheRatioOfHooke) {
+  const double beta = 0.5, c = std::cos(beta), s = std::sin(beta);  // rad
+  std::string bearing = "*NODE\n301,0,0,0\n";
+  for (const int node : {205, 305}) bearing += fmt::format("{},{},{},0\n", node, 0.1 * c, 0.1 * s);
+  for (int k = 0; k < 8; ++k)
+    bearing += fmt::format("{},{},{},{}\n", 17 + k, 0.4 + 0.2 * ((k + 1) / 2 % 2),
+                           -0.1 + 0.2 * (k / 2 % 2), -0.1 + 0.2 * (k / 4));
+  bearing +=
+      "*ELEMENT_SOLID\n3,3,17,18,19,20,21,22,23,24\n*MAT_RIGID\n3,1000.,1e9,0.3\n1,7,7\n\n"
+      "*PART\nbearing\n3,1,3\n*SET_NODE_LIST\n3\n301,305\n*CONSTRAINED_EXTRA_NODES_NODE\n2,205\n"
+      "*CONSTRAINED_EXTRA_NODES_SET\n3,3\n*CONSTRAINED_JOINT_REVOLUTE\n301,201,305,205\n";
+  constexpr const char* kAboutX = "1,7,5";
+  Pair pair(two_bodies(kAboutX) + bearing + kUniversal);
+  const Vec3 shaft(c, s, 0);
+  const double first = 60, ratio = 1 / c;  // rad/s; theta = 0: the arm lies in the plane
+  pair.start(0, Vec3::Zero(), {first, 0, 0});
+  const Vec3 w = first * ratio * shaft;
+  pair.start(1, w.cross(Vec3(0.1, 0, 0)), w);
+  const double I_1 = 5e-3, I_2 = 2e-3 * c * c + 3e-3 * s * s + 2.0 * 0.1 * 0.1 * s * s;
+  const double energy = I_1 + I_2 * ratio * ratio;
+  double worst_ratio = 0, worst_speed = 0, turned = 0, largest = 0, smallest = 10;
+  pair.run(0.12, [&] {
+    const double omega_1 = pair.body(0).V_WB.w.x(), omega_2 = pair.body(1).V_WB.w.dot(shaft);
+    turned += omega_1 * kStep;
+    const double theta = turned - 0.5 * omega_1 * kStep;  // velocities belong half a step back
+    const double expected = c / (1 - std::pow(s * std::cos(theta), 2));
+    const double speed = first * std::sqrt(energy / (I_1 + I_2 * expected * expected));
+    worst_ratio = std::max(worst_ratio, std::abs(omega_2 / omega_1 / expected - 1));
+    worst_speed = std::max(worst_speed, std::abs(omega_1 / speed - 1));
+    largest = std::max(largest, omega_2 / omega_1),
+    smallest = std::min(smallest, omega_2 / omega_1);
+  });
+  EXPECT_GT(turned, 2 * std::numbers::pi);
+  EXPECT_NEAR(largest, 1 / c, 1e-3);
+  EXPECT_NEAR(smallest, c, 1e-3);
+  EXPECT_LT(worst_ratio, 1e-3);
+  EXPECT_LT(worst_speed, 1e-3);
+}
+
 TEST(Joints, APairThatSlidesKeepsItsMomenta) {
   Pair pair(two_bodies(kFree) + "*CONSTRAINED_JOINT_TRANSLATIONAL\n101,201,102,202,103,203\n");
   pair.start(0, {0, 0, 0}, {0, 0, 20});
@@ -301,7 +374,9 @@ TEST(JointStiffness, WhatCannotBeRunIsNamed) {
   EXPECT_THAT(problems(bodies + keyword + "7,1,2,1,1\n0,0,0,0,0,0\n0,-3,0,0,0,0\n0,0,0,0,0,0\n"),
               HasSubstr("friction"));
   EXPECT_THAT(problems(bodies + "*CONSTRAINED_JOINT_UNIVERSAL\n101,201,102,202\n"),
-              HasSubstr("another kind"));
+              HasSubstr("90 degrees off"));
+  EXPECT_THAT(problems(bodies + "*CONSTRAINED_JOINT_UNIVERSAL\n101,201,102,201\n"),
+              HasSubstr("nodes 2 and 4 at one place"));
 }
 
 }  // namespace

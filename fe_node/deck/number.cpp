@@ -113,11 +113,10 @@ std::optional<std::int32_t> parse_integer(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   std::int32_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size()) return value;
+  constexpr std::int32_t kLargest = std::numeric_limits<std::int32_t>::max();
+  if (error == std::errc() && end == text.data() + text.size() && value >= -kLargest) return value;
   const std::optional<double> real = parse_real(text);
-  if (!real || *real != std::trunc(*real) ||
-      std::abs(*real) > std::numeric_limits<std::int32_t>::max())
-    return std::nullopt;
+  if (!real || *real != std::trunc(*real) || std::abs(*real) > kLargest) return std::nullopt;
   return static_cast<std::int32_t>(*real);
 }
 

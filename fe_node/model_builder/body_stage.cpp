@@ -12,8 +12,8 @@
 namespace crosswalk::fe {
 namespace {
 
-/// Codes 0..7 of TC and RC: none, x, y, z, xy, yz, zx, xyz.
-void lock(std::array<bool, 6>& locked, int first, int code) {
+/// Codes 0..7 of TC and RC: none, x, y, z, xy, yz, zx, xyz; others are none.
+void lock(std::array<bool, 6>& locked, int first, double code) {
   constexpr std::array<std::array<bool, 3>, 8> kAxes{{{false, false, false},
                                                       {true, false, false},
                                                       {false, true, false},
@@ -22,9 +22,9 @@ void lock(std::array<bool, 6>& locked, int first, int code) {
                                                       {false, true, true},
                                                       {true, false, true},
                                                       {true, true, true}}};
-  if (code < 1 || code > 7) return;
+  if (!(code >= 1 && code < 8)) return;
   for (int axis = 0; axis < 3; ++axis)
-    if (kAxes[code][axis]) locked[first + axis] = true;
+    if (kAxes[static_cast<std::size_t>(code)][axis]) locked[first + axis] = true;
 }
 
 double shell_thickness(const BuildContext& c, const Part& part) {
@@ -156,8 +156,8 @@ class BodyStage {
       body.role = BodyRole::Driven;
     const mat::Rigid& law = std::get<mat::Rigid>(c_.material_of(part)->law);
     if (law.constraint_option == 1) {
-      lock(body.locked, 0, static_cast<int>(law.constraint_1));
-      lock(body.locked, 3, static_cast<int>(law.constraint_2));
+      lock(body.locked, 0, law.constraint_1);
+      lock(body.locked, 3, law.constraint_2);
     } else if (law.constraint_option != 0) {
       c_.problem(part.source, fmt::format("*MAT_RIGID of part {}", part.id.value),
                  "constraints in global axes (CMO 0 or 1)",

@@ -1,5 +1,6 @@
 #include "fe_node/model_builder/layer_cards.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -47,7 +48,8 @@ std::optional<std::vector<ShellPoint>> ruled_points(BuildContext& c, const Part&
                                                     const SectionShell& card) {
   std::vector<ShellPoint> points;
   if (!(card.rule < 0)) return points;
-  const DeckId id(static_cast<std::int32_t>(std::lround(-card.rule)));
+  const double number = std::min(-card.rule, 2147483647.0);
+  const DeckId id(static_cast<std::int32_t>(std::lround(number)));
   const std::string who = fmt::format("*INTEGRATION_SHELL {} of part {}", id.value, part.id.value);
   const IntegrationShell* rule = nullptr;
   for (const IntegrationShell& candidate : c.deck.integrations)

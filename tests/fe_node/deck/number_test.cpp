@@ -38,6 +38,8 @@ TEST(DeckNumber, IntegersMayBeWrittenAsReals) {
 TEST(DeckNumber, IntegersKeepTheirRange) {
   EXPECT_EQ(parse_integer("2147483647"), 2147483647);
   EXPECT_FALSE(parse_integer("2147483648").has_value());
+  EXPECT_EQ(parse_integer("-2147483647"), -2147483647);
+  EXPECT_FALSE(parse_integer("-2147483648").has_value());  // the manual keeps sign and number apart
   EXPECT_FALSE(parse_integer("99999999999999999999").has_value());
   EXPECT_FALSE(parse_integer("2.5").has_value());
   EXPECT_FALSE(parse_integer("1-3").has_value());

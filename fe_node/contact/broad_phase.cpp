@@ -6,7 +6,8 @@
 namespace crosswalk::fe {
 
 BoxGrid::BoxGrid(std::span<const Box3> boxes, const Box3& region) : boxes_(boxes), region_(region) {
-  if (boxes.empty() || region.is_empty()) {
+  // places beyond all numbers are left to the watch on energies, which stops the run
+  if (boxes.empty() || region.is_empty() || !region.low.allFinite() || !region.high.allFinite()) {
     begin_.assign(2, 0);
     return;
   }
@@ -15,7 +16,7 @@ BoxGrid::BoxGrid(std::span<const Box3> boxes, const Box3& region) : boxes_(boxes
   for (const Box3& box : boxes)
     if (!box.is_empty()) mean += (box.high - box.low) / static_cast<double>(boxes.size());
   const Vec3 extent = (region.high - region.low).cwiseMax(1e-12);
-  double cell = std::max(mean.maxCoeff(), 1e-12);
+  double cell = std::max(1e-12, mean.maxCoeff());  // also when the mean is no number
   const double limit = 4.0 * static_cast<double>(boxes.size()) + 64;
   auto count = [&] {
     double total = 1;
@@ -54,7 +55,8 @@ BoxGrid::BoxGrid(std::span<const Box3> boxes, const Box3& region) : boxes_(boxes
 
 int BoxGrid::cell_of(double coordinate, int axis) const {
   const double place = (coordinate - region_.low[axis]) * inverse_cell_[axis];
-  return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(cells_[axis] - 1)));
+  if (!(place > 0)) return 0;  // also when it is no number
+  return static_cast<int>(std::min(place, static_cast<double>(cells_[axis] - 1)));
 }
 
 void BoxGrid::find(const Vec3& p, std::vector<int>& out) const {

@@ -68,6 +68,12 @@ std::optional<std::vector<ShellPoint>> ruled_points(BuildContext& c, const Part&
       return std::nullopt;
     }
   }
+  constexpr int kMostPoints = 1000;
+  if (rule->equally_spaced == 1 && (rule->points < 1 || rule->points > kMostPoints)) {
+    c.problem(rule->source, who + " field NIP", fmt::format("1 .. {} points", kMostPoints),
+              fmt::format("{}", rule->points));
+    return std::nullopt;
+  }
   if (rule->equally_spaced == 1)
     for (int i = 0; i < rule->points; ++i)
       points.push_back({(i + 0.5) / rule->points - 0.5, 1.0 / rule->points});

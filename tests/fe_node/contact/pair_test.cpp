@@ -1,5 +1,7 @@
 #include "fe_node/contact/pair.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "fe_node/contact/broad_phase.h"
@@ -166,6 +168,27 @@ TEST(BroadPhase, GridFindsWhatBruteForceFinds) {
     hits += static_cast<int>(found.size());
   }
   EXPECT_GT(hits, 20);
+}
+
+TEST(BroadPhase, BoxesBeyondAllNumbersHideNoOthers) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN(),
+                   kFar = std::numeric_limits<double>::infinity();
+  std::vector<Box3> boxes(4);
+  boxes[0].add({0, 0, 0});
+  boxes[0].add({1, 1, 1});
+  boxes[1].low = Vec3::Constant(kNone), boxes[1].high = Vec3::Constant(kNone);
+  boxes[2].low = Vec3::Constant(-kFar), boxes[2].high = Vec3::Constant(kFar);
+  boxes[3].low = Vec3::Zero(), boxes[3].high = {kFar, 1, 1};
+  Box3 region;
+  region.add({-1, -1, -1});
+  region.add({2, 2, 2});
+  std::vector<int> found;
+  BoxGrid(boxes, region).find({0.5, 0.5, 0.5}, found);
+  EXPECT_EQ(found, (std::vector<int>{0, 2, 3}));
+  found.clear();
+  region.high.x() = kFar;  // a node has left: the run is stopped elsewhere
+  BoxGrid(boxes, region).find({0.5, 0.5, 0.5}, found);
+  EXPECT_TRUE(found.empty());
 }
 
 TEST(Surface, SkinOfABrickHasItsOuterFacesLookingOut) {

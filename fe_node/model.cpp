@@ -48,6 +48,9 @@ void finish_body(Model& model, int index) {
     total = total + Inertia::of_point(model.mass[node], model.mesh.position[node]);
     if (model.has_rotations()) total.about_com += model.inertia[node] * Mat3::Identity();
   }
+  // The spin of nodes at one place moves none of them: any inertia will do, that of 1 mm for one.
+  constexpr double kPoint = 1e-3;  // m
+  if (total.about_com.isZero(0)) total.about_com = total.mass * kPoint * kPoint * Mat3::Identity();
   // Nodes on one line leave the spin about it without inertia, and it moves none of them.
   constexpr double kSlender = 1e-6;  // of the trace
   const double trace = total.about_com.trace();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "fe_node/element/hex8.h"
@@ -78,6 +79,12 @@ Inertia given_inertia(BuildContext& c, const PartInertia& given, Source source, 
   tensor << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz,
       given.izz;
   inertia.about_com = tensor * c.units.inertia();
+  constexpr double kRounded = 1e-6;  // of the trace; a slender body may have none about its axis
+  const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(tensor).eigenvalues();
+  if (!(principal[0] >= -kRounded * tensor.trace()) || !(tensor.trace() > 0))
+    c.problem(source, fmt::format("*PART_INERTIA {}", part.value),
+              "principal moments of inertia above zero",
+              fmt::format("{:.3g}, {:.3g} and {:.3g}", principal[0], principal[1], principal[2]));
   if (given.axes_kind == 1) {
     if (given.axes.given() || given.x_axis.norm() == 0) {
       c.problem(source, fmt::format("*PART_INERTIA {}", part.value), "local axes by two vectors",

@@ -50,6 +50,16 @@ TEST(ModelProblems, ABodyWithoutMass) {
               HasSubstr("rigid body 'ghost': expected a mass above zero"));
 }
 
+TEST(ModelProblems, AnInertiaThatNoBodyHas) {
+  for (const char* tensor : {"0,0,0,0,0,0", "1,5,0,1,0,1", "-1,0,0,1,0,1"})
+    EXPECT_THAT(problems_of(kCubeNodes + kCubeElement +
+                            "*SECTION_SOLID\n1,1\n*MAT_RIGID\n1,7.8e-6,210.0,0.3\n0\n0\n"
+                            "*PART_INERTIA\nblock\n1,1,1\n1,2,3,4\n" +
+                            tensor + "\n0,0,0\n"),
+                HasSubstr("expected principal moments of inertia above zero"))
+        << tensor;
+}
+
 TEST(ModelProblems, ASpringWithoutLengthHasNoDirection) {
   EXPECT_THAT(problems_of(kCube + "*PART\nspring\n2,2,2\n*SECTION_DISCRETE\n2\n0\n"
                                   "*MAT_SPRING_ELASTIC\n2,0.5\n*ELEMENT_DISCRETE\n11,2,6,0\n"),

@@ -87,6 +87,12 @@ TEST(ModelProblems, NumbersThatLeaveNoStableStep) {
               HasSubstr("expected a finite mass and stable step above zero"));
 }
 
+TEST(ModelProblems, AStepBeyondTheStableOne) {
+  for (const char* scale : {"-0.9", "1.5"})
+    EXPECT_THAT(problems_of(kCube + "*CONTROL_TIMESTEP\n0," + scale + "\n"),
+                HasSubstr("a share of the stable step in (0, 1]"));
+}
+
 TEST(ModelProblems, LawsThatElementsDoNotHaveAreNamed) {
   const std::string found = problems_of(
       kCubeNodes + "*PART\ncube\n1,1,1\n*SECTION_SOLID\n1,1\n*MAT_NULL\n1,7.8e-6\n" + kCubeElement);

@@ -6,6 +6,7 @@ set -eu
 root=$(cd "$(dirname "$0")/../../../.." && pwd)
 seconds=${1:?seconds to run}
 work=${2:-$(mktemp -d)}
+newest_header=$(find "$root/fe_node" "$root/common" -name '*.h' -printf '%T@ %p\n' | sort -n | tail -1 | cut -d' ' -f2-)
 mkdir -p "$work/found" "$work/objects"
 cd "$work"
 flags="-std=c++20 -O1 -g1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
@@ -14,7 +15,8 @@ flags="-std=c++20 -O1 -g1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanit
 compile() {
   object=objects/$(echo "${1#"$root"/}" | tr / _).o
   # shellcheck disable=SC2086
-  [ "$object" -nt "$1" ] || clang++ $flags -c "$1" -o "$object"
+  [ "$object" -nt "$1" ] && [ "$object" -nt "$newest_header" ] ||
+    ${CXX:-clang++} $flags -c "$1" -o "$object"
 }
 running=0
 for source in "$root"/tests/fe_node/deck/fuzz/deck_fuzzer.cpp "$root"/fe_node/deck/*.cpp \
@@ -29,6 +31,6 @@ for source in "$root"/tests/fe_node/deck/fuzz/deck_fuzzer.cpp "$root"/fe_node/de
   [ $((running % ${JOBS:-2})) -ne 0 ] || wait
 done
 wait
-clang++ -fsanitize=fuzzer,address,undefined objects/*.o -lfmt -o deck_fuzzer
+${CXX:-clang++} -fsanitize=fuzzer,address,undefined objects/*.o -lfmt -o deck_fuzzer
 exec ./deck_fuzzer -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=2048 \
   -dict="$root"/tests/fe_node/deck/fuzz/keywords.dict found "$root"/tests/fe_node/deck/fuzz/corpus

@@ -37,14 +37,21 @@ std::vector<std::vector<int>> strands_of(const Mesh& mesh, const std::vector<int
 }
 
 /// The vector from the axis to the third node, or the one the card gives, of each beam.
-std::optional<std::vector<Vec3>> beam_planes(BuildContext& c, const std::vector<int>& elements) {
+std::optional<std::vector<Vec3>> beam_planes(BuildContext& c, const Part& part,
+                                             const std::vector<int>& elements) {
   std::unordered_map<DeckId, const BeamElement*> cards;
   for (const BeamElement& beam : c.deck.beams) cards.emplace(beam.id, &beam);
   const Mesh& mesh = c.mesh();
   std::vector<Vec3> planes;
   for (int e : elements) {
-    const BeamElement& beam = *cards.at(mesh.table(ElementKind::Line2).id[e]);
-    const std::string who = fmt::format("*ELEMENT_BEAM {}", beam.id.value);
+    const DeckId id = mesh.table(ElementKind::Line2).id[e];
+    const std::string who = fmt::format("*ELEMENT_BEAM {}", id.value);
+    const auto card = cards.find(id);
+    if (card == cards.end()) {
+      c.problem(part.source, who, "beams alone in a part whose section bends", "another element");
+      return std::nullopt;
+    }
+    const BeamElement& beam = *card->second;
     const std::span<const int> ends = mesh.corners(ElementKind::Line2, e);
     const Vec3 axis = mesh.position[ends[1]] - mesh.position[ends[0]];
     Vec3 plane = beam.orientation;
@@ -74,7 +81,7 @@ bool add_beam_block(BuildContext& c, const Part& part, int index,
   const auto* card = section == nullptr ? nullptr : std::get_if<SectionBeam>(&section->law);
   if (card == nullptr || !bends(*card)) return false;
   const std::optional<BeamSection> beam = beam_section(c, part, *card);
-  const std::optional<std::vector<Vec3>> planes = beam_planes(c, elements);
+  const std::optional<std::vector<Vec3>> planes = beam_planes(c, part, elements);
   if (beam && planes && c.problem_count == 0)
     c.model().blocks.push_back(make_beam_block(c.mesh(), index, elements, *beam, *planes,
                                                element_controls(c, part).minimum_step));

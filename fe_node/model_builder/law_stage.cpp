@@ -1,5 +1,7 @@
 #include "fe_node/model_builder/law_stage.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "fe_node/model_builder/layer_cards.h"
@@ -103,6 +105,12 @@ std::optional<ShellSection> layered_section(BuildContext& c, const Part& part) {
       std::optional<ShellLaw> law = shell_law(c, *found->second);
       if (!law) return std::nullopt;
       plies.push_back({*law, layer.thickness * c.units.length, 1});
+    }
+    if (plies.empty() || std::any_of(plies.begin(), plies.end(),
+                                     [](const Ply& ply) { return !(ply.thickness > 0); })) {
+      c.problem(part.source, who, "layers with a thickness",
+                plies.empty() ? "none" : "one without");
+      return std::nullopt;
     }
     return laminate(plies);
   }

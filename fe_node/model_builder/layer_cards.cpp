@@ -106,6 +106,11 @@ std::optional<ShellSection> glass_section(BuildContext& c, const Part& part,
     return std::nullopt;
   }
   const ShellGlass glass = pane(m, density, stress);
+  if (!(m.polymer_yield > 0)) {
+    c.problem(material.source, who + " field SYP", "a positive yield stress of the interlayer",
+              fmt::format("{:g}", m.polymer_yield));
+    return std::nullopt;
+  }
   c.note(
       fmt::format("{}: panes crack where the principal tension has stood above SYG for {:g} us; "
                   "EFG and ETG are "

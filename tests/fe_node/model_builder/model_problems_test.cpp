@@ -87,6 +87,28 @@ TEST(ModelProblems, NumbersThatLeaveNoStableStep) {
               HasSubstr("expected a finite mass and stable step above zero"));
 }
 
+TEST(ModelProblems, ACompositeOfNoLayers) {
+  for (const char* layers : {"", "1,0.0\n"})
+    EXPECT_THAT(
+        problems_of(kCubeNodes + "*MAT_ELASTIC\n1,7.8e-6,210.0,0.3\n*PART_COMPOSITE\nsheet\n1,2\n" +
+                    layers + "*ELEMENT_SHELL\n1,1,1,2,3,4\n"),
+        HasSubstr("expected layers with a thickness"));
+}
+
+TEST(ModelProblems, AnInterlayerWithoutYieldStress) {
+  EXPECT_THAT(problems_of(kCubeNodes +
+                          "*PART\npane\n1,1,1\n*SECTION_SHELL\n1,16\n5.0\n"
+                          "*MAT_LAMINATED_GLASS\n1,2.5e-6,70.0,0.22,0.06,0,0,0.1\n0.45\n0,1,0\n"
+                          "*ELEMENT_SHELL\n1,1,1,2,3,4\n"),
+              HasSubstr("field SYP: expected a positive yield stress"));
+}
+
+TEST(ModelProblems, ASpringInAPartOfBeams) {
+  EXPECT_THAT(problems_of(kCube + "*PART\nbeams\n2,2,1\n*SECTION_BEAM\n2,1\n1,1,1,1\n"
+                                  "*ELEMENT_DISCRETE\n11,2,6,7\n"),
+              HasSubstr("expected beams alone in a part whose section bends"));
+}
+
 TEST(ModelProblems, AStepBeyondTheStableOne) {
   for (const char* scale : {"-0.9", "1.5"})
     EXPECT_THAT(problems_of(kCube + "*CONTROL_TIMESTEP\n0," + scale + "\n"),

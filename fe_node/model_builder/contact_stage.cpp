@@ -23,12 +23,20 @@ std::vector<int> wall_nodes(BuildContext& c, const RigidWall& wall) {
 std::optional<RigidShape> wall_shape(BuildContext& c, const RigidWall& wall) {
   const double length = c.units.length;
   const Vec3 normal = (wall.head - wall.tail).normalized();
-  if (wall.shape == RigidWall::Shape::Plane && !wall.is_finite && !wall.is_moving)
-    return RigidPlane{length * wall.tail, normal};
-  if (wall.shape == RigidWall::Shape::Sphere && !wall.motion_curve.given())
+  const bool is_plane = wall.shape == RigidWall::Shape::Plane,
+             is_sphere = wall.shape == RigidWall::Shape::Sphere,
+             is_cylinder = wall.shape == RigidWall::Shape::Cylinder;
+  if (((is_sphere || is_cylinder) && !(wall.radius > 0)) ||
+      ((is_plane || is_cylinder) && normal.isZero(0))) {
+    c.problem(wall.source, "*RIGIDWALL", "a radius and a direction of its axis or normal",
+              "one of length zero");
+    return std::nullopt;
+  }
+  if (is_plane && !wall.is_finite && !wall.is_moving) return RigidPlane{length * wall.tail, normal};
+  if (is_sphere && !wall.motion_curve.given())
     return RigidEllipsoid{{Quat::Identity(), length * wall.tail},
                           Vec3::Constant(length * wall.radius)};
-  if (wall.shape == RigidWall::Shape::Cylinder && !wall.motion_curve.given())
+  if (is_cylinder && !wall.motion_curve.given())
     return RigidCylinder{length * wall.tail, normal, length * wall.radius};
   c.problem(wall.source, "*RIGIDWALL", "a fixed infinite plane, sphere or cylinder", "another");
   return std::nullopt;

@@ -109,6 +109,14 @@ TEST(ModelProblems, ASpringInAPartOfBeams) {
               HasSubstr("expected beams alone in a part whose section bends"));
 }
 
+TEST(ModelProblems, AWallWithoutRadiusOrNormal) {
+  for (const char* wall :
+       {"_PLANAR\n0\n1,1,1,1,1,1,0.3\n", "_GEOMETRIC_SPHERE\n0\n0,0,-9,0,0,1,0.3\n0.0\n"})
+    EXPECT_THAT(problems_of(kCube + "*RIGIDWALL" + wall),
+                HasSubstr("a radius and a direction of its axis or normal"))
+        << wall;
+}
+
 TEST(ModelProblems, AStepBeyondTheStableOne) {
   for (const char* scale : {"-0.9", "1.5"})
     EXPECT_THAT(problems_of(kCube + "*CONTROL_TIMESTEP\n0," + scale + "\n"),

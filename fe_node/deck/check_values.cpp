@@ -94,6 +94,14 @@ void check_materials(const Deck& deck, DeckProblems& problems) {
   }
 }
 
+void check_masses(const Deck& deck, DeckProblems& problems) {
+  ValueCheck check(deck, problems);
+  for (const MassElement& mass : deck.masses) {
+    check.about(mass.source, fmt::format("*ELEMENT_MASS {}", mass.id.value));
+    check.not_negative("MASS", mass.mass);
+  }
+}
+
 /// Solids and shells need a material with a density, shells a thickness.
 void check_parts(const DeckIndex& index, DeckProblems& problems) {
   const Deck& deck = index.deck();
@@ -155,6 +163,7 @@ void check_coordinates(const Deck& deck, DeckProblems& problems) {
 void check_values(const DeckIndex& index, DeckProblems& problems) {
   check_coordinates(index.deck(), problems);
   check_materials(index.deck(), problems);
+  check_masses(index.deck(), problems);
   check_parts(index, problems);
   check_curves(index.deck(), problems);
 }

@@ -1,11 +1,14 @@
 // One element block per part and element kind.
 #include <algorithm>
+#include <array>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "fe_node/element/beam.h"
 #include "fe_node/element/hex8.h"
 #include "fe_node/element/hex8_full.h"
+#include "fe_node/element/hex8_points.h"
 #include "fe_node/element/shell.h"
 #include "fe_node/element/tet4.h"
 #include "fe_node/model_builder/law_stage.h"
@@ -128,6 +131,39 @@ int solid_formulation(const BuildContext& c, const Part& part) {
   return card == nullptr ? 1 : card->formulation;
 }
 
+/// The smallest Jacobian at the 2 x 2 x 2 points of a brick.
+double least_jacobian(const Mesh& mesh, int element) {
+  const std::span<const int> corners = mesh.corners(ElementKind::Hex8, element);
+  std::array<std::array<Vec3, kHexPoints>, 3> tangent;
+  for (int k = 0; k < 3; ++k) {
+    Vec3 edge[4];
+    for (int i = 0; i < 4; ++i) {
+      const auto& [from, to] = hex_points::kEdge[k][i];
+      edge[i] = 0.5 * (mesh.position[corners[to]] - mesh.position[corners[from]]);
+    }
+    hex_points::spread(edge);
+    for (int i = 0; i < 4; ++i)
+      for (int point : hex_points::kPair[k][i]) tangent[k][point] = edge[i];
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (int q = 0; q < kHexPoints; ++q)
+    least = std::min(least, tangent[0][q].cross(tangent[1][q]).dot(tangent[2][q]));
+  return least;
+}
+
+bool has_sound_points(BuildContext& c, const Part& part, const std::vector<int>& elements) {
+  for (int e : elements)
+    if (const double least = least_jacobian(c.mesh(), e); !(least > 0)) {
+      c.problem(part.source,
+                fmt::format("*ELEMENT_SOLID {} of part {}",
+                            c.mesh().table(ElementKind::Hex8).id[e].value, part.id.value),
+                "a positive Jacobian at each of its eight points", fmt::format("{:.3g}", least),
+                "formulation 1 needs a positive volume alone");
+      return false;
+    }
+  return true;
+}
+
 /// Bricks of formulations 2, 3, -1 and -2 get eight points and a mean dilation, of 1 one point;
 /// tetrahedra of 13 a pressure averaged at the nodes, of others their own.
 void add_solid_block(BuildContext& c, const Part& part, int index, ElementKind kind,
@@ -149,6 +185,8 @@ void add_solid_block(BuildContext& c, const Part& part, int index, ElementKind k
   if (is_tet)
     block = make_tet4_block(c.mesh(), index, std::move(elements), *law, controls,
                             formulation == 13 ? TetPressure::NodalMean : TetPressure::Own);
+  else if (is_one_of({-2, -1, 2, 3}) && !has_sound_points(c, part, elements))
+    return;
   else if (is_one_of({-2, -1, 2, 3}))
     block = make_full_hex8_block(c.mesh(), index, std::move(elements), *law, controls);
   else

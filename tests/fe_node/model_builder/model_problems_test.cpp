@@ -117,6 +117,16 @@ TEST(ModelProblems, AWallWithoutRadiusOrNormal) {
         << wall;
 }
 
+TEST(ModelProblems, ABrickThatIsInsideOutAtAPoint) {
+  // corner 7 pushed through the middle: the volume stays positive
+  std::string nodes = kCubeNodes;
+  nodes.replace(nodes.find("7,10,10,10"), 10, "7,3,3,3");
+  const std::string rest = "*PART\ncube\n1,1,1\n*MAT_ELASTIC\n1,7.8e-6,210.0,0.3\n" + kCubeElement;
+  EXPECT_EQ(problems_of(nodes + rest + "*SECTION_SOLID\n1,1\n"), "none");
+  EXPECT_THAT(problems_of(nodes + rest + "*SECTION_SOLID\n1,2\n"),
+              HasSubstr("*ELEMENT_SOLID 1 of part 1: expected a positive Jacobian"));
+}
+
 TEST(ModelProblems, AStepBeyondTheStableOne) {
   for (const char* scale : {"-0.9", "1.5"})
     EXPECT_THAT(problems_of(kCube + "*CONTROL_TIMESTEP\n0," + scale + "\n"),

@@ -122,11 +122,16 @@ std::optional<std::int32_t> parse_integer(std::string_view text) {
 
 std::string format_real(double value, int width) {
   if (value == 0) return "0.0";
+  // Stands for all that no field holds, infinity and what is no number included.
+  constexpr double kLargest = 1.7e308;
+  if (!(std::abs(value) <= kLargest)) value = value < 0 ? -kLargest : kLargest;
   std::string best;
   double best_error = std::numeric_limits<double>::infinity();
   const auto offer = [&](const std::string& text) {
     if (text.size() > static_cast<std::size_t>(width)) return;
-    const double error = std::abs(parse_real(text).value_or(1e300) - value);
+    const std::optional<double> read = parse_real(text);
+    if (!read) return;
+    const double error = std::abs(*read - value);
     if (error < best_error || (error == best_error && text.size() < best.size())) {
       best = text;
       best_error = error;

@@ -19,7 +19,8 @@ std::optional<std::int32_t> parse_integer(std::string_view text);
 std::string_view trimmed(std::string_view text);
 std::string upper_case(std::string_view text);
 
-/// The closest text of at most `width` characters that parse_real() reads back.
+/// The closest text of at most `width` characters that parse_real() reads back; beyond 1.7e308 that
+/// of this number.
 std::string format_real(double value, int width);
 
 }  // namespace crosswalk::fe

@@ -1,5 +1,8 @@
 #include "fe_node/deck/number.h"
 
+#include <cmath>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace crosswalk::fe {
@@ -67,6 +70,13 @@ TEST(DeckNumber, FormattedNumbersFitAndReadBack) {
 TEST(DeckNumber, TwentyColumnsKeepFourteenDigits) {
   for (const double value : {1.0 / 3, -2.0 / 7 * 1e-9, 123456.78901234567, 6.02214076e23})
     EXPECT_NEAR(*parse_real(format_real(value, 20)), value, 1e-13 * std::abs(value));
+}
+
+TEST(DeckNumber, WhatNoFieldHoldsIsTheLargestNumber) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double value : {infinity, std::nan(""), 1.7976931348623157e308})
+    EXPECT_EQ(format_real(value, 10), "1.7E+308");
+  EXPECT_EQ(format_real(-infinity, 10), "-1.7E+308");
 }
 
 }  // namespace

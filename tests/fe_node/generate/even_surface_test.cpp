@@ -48,7 +48,9 @@ TEST(EvenSurface, BothHalvesAreMirrorImagesAndTheMidPlaneStays) {
     const Vec3& u = sphere.direction(s);
     EXPECT_NEAR(u.norm(), 1, 1e-15);
     EXPECT_EQ(u, sphere.direction(sphere.surface_index(i, 10 - j, k)).cwiseProduct(Vec3(1, -1, 1)));
-    if (j == 5) EXPECT_EQ(u.y(), 0);
+    if (j == 5) {
+      EXPECT_EQ(u.y(), 0);
+    }
   }
 }
 

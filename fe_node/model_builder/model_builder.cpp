@@ -53,8 +53,9 @@ void read_controls(BuildContext& c) {
   if (control.end_time) c.built.end_time = *control.end_time * c.units.time;
   if (control.time_step) {
     settings.step_scale = control.time_step->scale;
-    if (!(settings.step_scale > 0 && settings.step_scale <= 1))
-      c.problem({}, "*CONTROL_TIMESTEP field TSSFAC", "a share of the stable step in (0, 1]",
+    // Beyond 1 the watch on energies decides: the stable step is a lower bound.
+    if (!(settings.step_scale > 0 && settings.step_scale <= 10))
+      c.problem({}, "*CONTROL_TIMESTEP field TSSFAC", "a multiple of the stable step in (0, 10]",
                 fmt::format("{:g}", settings.step_scale));
     if (control.time_step->limit_curve.given())
       if (const auto limit = c.curve(control.time_step->limit_curve, c.units.time, c.units.time, {},

@@ -138,13 +138,6 @@ TEST(FeDeck, JointedBodiesInFreeFlightKeepMomenta) {
   EXPECT_LT(std::abs(state.energies.balance_error()), 0.01);
 }
 
-TEST(FeDeck, JointsOfOtherKindsAreRefusedByName) {
-  std::string text = pendulum(true);
-  text.replace(text.find("REVOLUTE"), 8, "UNIVERSAL");
-  EXPECT_NE(build_problems(text).find("a spherical, revolute, cylindrical, planar"),
-            std::string::npos);
-}
-
 /// Bar of eight bricks along x, fixed at x = 0, pulled at the corner node of the far end.
 std::string pulled_bar() {
   std::string text =

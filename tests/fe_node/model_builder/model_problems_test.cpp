@@ -130,7 +130,7 @@ TEST(ModelProblems, ABrickThatIsInsideOutAtAPoint) {
 TEST(ModelProblems, AStepBeyondTheStableOne) {
   for (const char* scale : {"-0.9", "1.5"})
     EXPECT_THAT(problems_of(kCube + "*CONTROL_TIMESTEP\n0," + scale + "\n"),
-                HasSubstr("a share of the stable step in (0, 1]"));
+                HasSubstr("a multiple of the stable step in (0, 10]"));
 }
 
 TEST(ModelProblems, LawsThatElementsDoNotHaveAreNamed) {

@@ -206,7 +206,7 @@ class DeckReader {
     if (keyword.starts_with("MAT_")) {
       KeywordBlock block{deck_, io_, problems_, {}, {}};
       std::string name = keyword;
-      if (name.ends_with("_TITLE")) {
+      if (name.ends_with("_TITLE") && name != "MAT_TITLE") {
         block.options.emplace_back("TITLE");
         name.erase(name.size() - 6);
       }

@@ -26,9 +26,13 @@ void expect_alike(const Model& exact, const Model& rounded, const State& state, 
   compute_forces(rounded, second, other);
   const std::vector<Vec3> force = nodal_forces(exact, one), near = nodal_forces(rounded, other);
   double largest = 0;
-  for (std::size_t n = 0; n < force.size(); ++n) {
+  for (int n = 0; n < exact.mesh.node_count(); ++n) {
     largest = std::max(largest, force[n].norm());
     EXPECT_LT((force[n] - near[n]).norm(), tolerance) << n;
+    const Vec3 moment = sum_of_rows(exact.tiles.moment_rows, one.moment_rows.data(), n);
+    EXPECT_LT((moment - sum_of_rows(rounded.tiles.moment_rows, other.moment_rows.data(), n)).norm(),
+              tolerance)
+        << n;
   }
   EXPECT_GT(largest, 1000 * tolerance);
   EXPECT_NEAR(second.energies.internal, first.energies.internal, 1e-4 * first.energies.internal);

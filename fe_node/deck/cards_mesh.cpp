@@ -29,10 +29,11 @@ void cards(CardIo& io, SolidElement& element) {
   io.card();
   io.id("EID", element.id, kElementWidth);
   io.id("PID", element.part, kElementWidth);
-  const bool is_one_line = element.nodes[8] == DeckId() && element.nodes[9] == DeckId();
+  const auto is_empty = [&element] { return element.nodes == decltype(element.nodes){}; };
+  const bool is_one_line =
+      element.nodes[8] == DeckId() && element.nodes[9] == DeckId() && !is_empty();
   if (io.is_reading() || is_one_line) node_ids(io, element.nodes, 8);
-  const bool is_empty = element.nodes == decltype(element.nodes){};
-  if (io.is_reading() ? !is_empty : is_one_line) return;
+  if (io.is_reading() ? !is_empty() : is_one_line) return;
   io.card();
   node_ids(io, element.nodes);
 }

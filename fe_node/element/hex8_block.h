@@ -4,6 +4,7 @@
 #include "fe_node/element/flatten.h"
 #include "fe_node/element/hex8.h"
 #include "fe_node/element/hex8_kernel.h"
+#include "fe_node/element/pack_history.h"
 
 namespace crosswalk::fe {
 
@@ -63,13 +64,14 @@ class Hex8Block final : public ElementBlock {
       : ElementBlock(mesh, ElementKind::Hex8, part, std::move(elements), kGroupsPerPack<N>),
         law_(law),
         controls_(controls),
+        kept_(law.history_size()),
         shapes_(make_hex_shapes<N>(*this, mesh, law.density, law.bulk_modulus(),
                                    law.shear_modulus(), controls.minimum_step)) {}
 
-  int history_per_group() const override { return pack_history() * kLanes / kGroupsPerPack<N>; }
+  int history_per_group() const override { return kept_.per_group(); }
 
   void initialise(std::span<double> history) const override {
-    for (int pack = 0; pack < pack_count(); ++pack) law_.initialise(history_of(history, pack));
+    for (int pack = 0; pack < pack_count(); ++pack) law_.initialise(kept_.of(history, pack));
   }
 
   double corner_mass(int element) const override {
@@ -78,9 +80,7 @@ class Hex8Block final : public ElementBlock {
   double added_mass(int element) const override {
     return shapes_.added_density[element] * element_volume(element);
   }
-  double element_volume(int element) const override {
-    return shapes_.volume[element];
-  }
+  double element_volume(int element) const override { return shapes_.volume[element]; }
   double density() const override { return law_.density; }
 
   // Flattened: the compiler otherwise leaves lane arithmetic of so large a function in calls.
@@ -95,9 +95,9 @@ class Hex8Block final : public ElementBlock {
       if (pack + 1 < pack_count()) fetch_ahead(pack + 1);
       HexNodes<N> nodes;
       load_corners(step.nodes, group_nodes(group), nodes.x, nodes.v);
-      const HexAnswer<N> answer = hex8_forces(
-          shapes_.packs[pack], nodes, law, controls_, step.dt, history_of(history, pack),
-          step.wants_stable_step ? smallest(lanes.step_squared) : 0.0);
+      const HexAnswer<N> answer =
+          hex8_forces(shapes_.packs[pack], nodes, law, controls_, step.dt, kept_.of(history, pack),
+                      step.wants_stable_step ? smallest(lanes.step_squared) : 0.0);
       store_corner_forces(answer, corner_forces.data() + corner_slot(group - first, 0, 0));
       add_to_sums(answer, lane_mask<N>(pack), step, pack, element_count(), lanes, sums);
     }
@@ -106,7 +106,7 @@ class Hex8Block final : public ElementBlock {
 
   bool is_alive(std::span<const double> history, int element) const override {
     if constexpr (requires { Law::kAlive; })
-      return history_of(history, element / kWidth<N>)[Law::kAlive][element % kWidth<N>] > 0;
+      return kept_.of(history, element / kWidth<N>)[Law::kAlive][element % kWidth<N>] > 0;
     return true;
   }
 
@@ -126,7 +126,7 @@ class Hex8Block final : public ElementBlock {
     HexNodes<N> nodes;
     load_corners(step.nodes, group_nodes(pack * kGroupsPerPack<N>), nodes.x, nodes.v);
     const HexReference<N>& ref = shapes_.packs[pack];
-    const N* own = history_of(history, pack);
+    const N* own = kept_.of(history, pack);
     std::vector<N, Eigen::aligned_allocator<N>> copy(own, own + law_.history_size());
     SolidStep<N> still;
     still.F = gradient_of(ref, nodes.x);
@@ -151,24 +151,15 @@ class Hex8Block final : public ElementBlock {
 
  private:
   int pack_count() const { return group_count() / kGroupsPerPack<N>; }
-  /// Whole groups' worth.
-  int pack_history() const {
-    return (law_.history_size() + kGroupsPerPack<N> - 1) / kGroupsPerPack<N> * kGroupsPerPack<N>;
-  }
   /// Shapes cross pages, where the processor's own prefetching stops.
   void fetch_ahead(int pack) const {
     const auto* shape = reinterpret_cast<const char*>(&shapes_.packs[pack]);
     for (std::size_t i = 0; i < sizeof(HexReference<N>); i += 64) __builtin_prefetch(shape + i);
   }
-  N* history_of(std::span<double> history, int pack) const {
-    return reinterpret_cast<N*>(history.data()) + std::size_t(pack_history()) * pack;
-  }
-  const N* history_of(std::span<const double> history, int pack) const {
-    return reinterpret_cast<const N*>(history.data()) + std::size_t(pack_history()) * pack;
-  }
 
   Law law_;
   ElementControls controls_;
+  PackHistory<N> kept_;
   HexShapes<N> shapes_;
 };
 

@@ -7,6 +7,7 @@
 #include "fe_node/element/dilation.h"
 #include "fe_node/element/hex8_block.h"
 #include "fe_node/element/hex8_points.h"
+#include "fe_node/element/pack_history.h"
 
 namespace crosswalk::fe {
 namespace {
@@ -123,14 +124,16 @@ class FullHexBlock final : public ElementBlock {
                const ElementControls& controls)
       : ElementBlock(mesh, ElementKind::Hex8, part, std::move(elements), kGroupsPerPack<N>),
         law_(law),
-        controls_(controls) {
+        controls_(controls),
+        kept_(history_size()) {
     set_packs(mesh);
   }
 
-  int history_per_group() const override { return pack_history() * kLanes / kGroupsPerPack<N>; }
+  /// Scale of the last step per point, the element's life, then the points' own history.
+  int history_per_group() const override { return kept_.per_group(); }
   void initialise(std::span<double> history) const override {
     for (int pack = 0; pack < pack_count(); ++pack) {
-      N* h = history_of(history, pack);
+      N* h = kept_.of(history, pack);
       for (int k = 0; k <= kPoints; ++k) h[k] = constant<N>(1);
       for (int q = 0; q < kPoints; ++q) law_.initialise(point_history(h, q));
     }
@@ -145,7 +148,7 @@ class FullHexBlock final : public ElementBlock {
   double density() const override { return law_.density; }
   int points() const override { return kPoints; }
   bool is_alive(std::span<const double> history, int element) const override {
-    return history_of(history, element / kWidth<N>)[kPoints][element % kWidth<N>] > 0;
+    return kept_.of(history, element / kWidth<N>)[kPoints][element % kWidth<N>] > 0;
   }
   CW_FLATTEN void forces(const StepContext& step, std::span<double> history,
                          std::span<double> corner_forces, std::span<double> corner_moments,
@@ -156,24 +159,14 @@ class FullHexBlock final : public ElementBlock {
 
  private:
   int pack_count() const { return group_count() / kGroupsPerPack<N>; }
-  /// Scale of the last step per point, the element's life, then the points' own history; whole
-  /// groups' worth.
-  int pack_history() const {
-    const int used = kPoints + 1 + kPoints * law_.history_size();
-    return (used + kGroupsPerPack<N> - 1) / kGroupsPerPack<N> * kGroupsPerPack<N>;
-  }
-  N* history_of(std::span<double> history, int pack) const {
-    return reinterpret_cast<N*>(history.data()) + std::size_t(pack_history()) * pack;
-  }
-  const N* history_of(std::span<const double> history, int pack) const {
-    return reinterpret_cast<const N*>(history.data()) + std::size_t(pack_history()) * pack;
-  }
+  int history_size() const { return kPoints + 1 + kPoints * law_.history_size(); }
   N* point_history(N* h, int q) const { return h + kPoints + 1 + q * law_.history_size(); }
 
   void set_packs(const Mesh& mesh);
 
   Law law_;
   ElementControls controls_;
+  PackHistory<N> kept_;
   std::vector<FullHexReference<N>, Eigen::aligned_allocator<FullHexReference<N>>> packs_;
   std::vector<StepReference<N>, Eigen::aligned_allocator<StepReference<N>>> steps_;
   std::vector<double> volume_, added_density_, initial_step_;
@@ -217,7 +210,7 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
     const FullHexReference<N>& ref = packs_[pack];
     HexNodes<N> nodes;
     load_corners(step.nodes, group_nodes(group), nodes.x, nodes.v);
-    N* h = history_of(history, pack);
+    N* h = kept_.of(history, pack);
     Tensor<N> F[kPoints], F_rate[kPoints], F_inverse[kPoints];
     local_derivatives(nodes.x, F);
     local_derivatives(nodes.v, F_rate);
@@ -301,8 +294,8 @@ ElementSample FullHexBlock<N, Law>::sample(const StepContext& step, std::span<co
   const FullHexReference<N>& ref = packs_[pack];
   HexNodes<N> nodes;
   load_corners(step.nodes, group_nodes(pack * kGroupsPerPack<N>), nodes.x, nodes.v);
-  const N* own = history_of(history, pack);
-  std::vector<N, Eigen::aligned_allocator<N>> copy(own, own + pack_history());
+  const N* own = kept_.of(history, pack);
+  std::vector<N, Eigen::aligned_allocator<N>> copy(own, own + history_size());
   ElementSample out;
   out.deformation.setZero();
   out.volume = element_volume(element);

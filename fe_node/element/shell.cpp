@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "fe_node/element/flatten.h"
+#include "fe_node/element/pack_history.h"
 #include "fe_node/element/shell_full.h"
 #include "fe_node/element/shell_one_point.h"
 
@@ -68,7 +69,7 @@ class ShellBlock final : public ElementBlock {
 
   int points() const override { return Element::kPoints; }
   bool has_moments() const override { return matter_.is_bending(); }
-  int history_per_group() const override { return pack_history() * kLanes / kGroupsPerPack<N>; }
+  int history_per_group() const override { return kept_.per_group(); }
   void initialise(std::span<double> history) const override;
   double corner_mass(int element) const override { return mass_[element] / kCorners; }
   double corner_inertia(int element) const override {
@@ -82,7 +83,7 @@ class ShellBlock final : public ElementBlock {
               BlockSums& sums) const override;
   double initial_stable_step(int element) const override { return step_[element]; }
   bool is_alive(std::span<const double> history, int element) const override {
-    return history_of(history, element / kWidth<N>)[kAlive][element % kWidth<N>] > 0.5;
+    return kept_.of(history, element / kWidth<N>)[kAlive][element % kWidth<N>] > 0.5;
   }
   ElementSample sample(const StepContext& step, std::span<const double> history,
                        int element) const override;
@@ -94,17 +95,6 @@ class ShellBlock final : public ElementBlock {
   };
 
   int pack_count() const { return group_count() / kGroupsPerPack<N>; }
-  /// Whole groups' worth.
-  int pack_history() const {
-    const int used = kHeader + element_.history_size();
-    return (used + kGroupsPerPack<N> - 1) / kGroupsPerPack<N> * kGroupsPerPack<N>;
-  }
-  N* history_of(std::span<double> history, int pack) const {
-    return reinterpret_cast<N*>(history.data()) + std::size_t(pack_history()) * pack;
-  }
-  const N* history_of(std::span<const double> history, int pack) const {
-    return reinterpret_cast<const N*>(history.data()) + std::size_t(pack_history()) * pack;
-  }
   ShellGeometry<N, kCorners> load(const StepContext& step, int pack) const;
   ShellMotion<N, kCorners> motion(const ShellGeometry<N, kCorners>& g, double dt) const;
   /// Sets what belongs to one element, from its undeformed corners.
@@ -113,6 +103,7 @@ class ShellBlock final : public ElementBlock {
 
   ShellMatter matter_;
   Element element_;
+  PackHistory<N> kept_;
   std::vector<Weight, Eigen::aligned_allocator<Weight>> weights_;
   /// Per element, the padding's included: m, m2, kg with what scaling added, m2, s, kg.
   std::vector<double> thickness_, area_, mass_, gyration_, step_, added_;
@@ -134,7 +125,8 @@ ShellBlock<N, ElementOf>::ShellBlock(const Mesh& mesh, ElementKind kind, int par
                                      std::span<const double> thickness)
     : ElementBlock(mesh, kind, part, std::move(elements), kGroupsPerPack<N>),
       matter_(section, controls),
-      element_(matter_) {
+      element_(matter_),
+      kept_(kHeader + element_.history_size()) {
   const std::size_t padded = std::size_t(group_count()) * kLanes;
   thickness_.assign(padded, section.thickness);
   if (!thickness.empty()) {
@@ -176,7 +168,7 @@ void ShellBlock<N, ElementOf>::set_element(int element, const Lanes3<double> (&x
 template <class N, template <class> class ElementOf>
 void ShellBlock<N, ElementOf>::initialise(std::span<double> history) const {
   for (int pack = 0; pack < pack_count(); ++pack) {
-    N* h = history_of(history, pack);
+    N* h = kept_.of(history, pack);
     h[kEnergy] = h[kHourglassEnergy] = constant<N>(0);
     for (int lane = 0; lane < kWidth<N>; ++lane)
       h[kThickness].set(lane, thickness_[pack * kWidth<N> + lane]);
@@ -236,7 +228,7 @@ CW_FLATTEN void ShellBlock<N, ElementOf>::forces(const StepContext& step, std::s
   LaneSums<N> lanes;
   for (int group = first; group < last; group += kGroupsPerPack<N>) {
     const int pack = group / kGroupsPerPack<N>;
-    N* h = history_of(history, pack);
+    N* h = kept_.of(history, pack);
     ShellGeometry<N, kCorners> g = load(step, pack);
     if (!all_positive(h[kAlive])) rest_where_failed(h[kAlive], g);
     ShellMotion<N, kCorners> m = motion(g, step.dt);
@@ -289,7 +281,7 @@ template <class N, template <class> class ElementOf>
 ElementSample ShellBlock<N, ElementOf>::sample(const StepContext& step,
                                                std::span<const double> history, int element) const {
   const int pack = element / kWidth<N>, lane = element % kWidth<N>;
-  const N* h = history_of(history, pack);
+  const N* h = kept_.of(history, pack);
   const ShellGeometry<N, kCorners> g = load(step, pack);
   const ShellShape<N, kCorners> shape = shell_shape(g.x);
   const SectionSample section = element_.sample(h + kHeader, lane);

@@ -6,8 +6,10 @@
 // In the axes (n, t) of the first crack, with full plane-stress elasticity sigma_nn and sigma_tt,
 // each tension is capped by strength x (1 - time since fracture / fading time), and the stress of
 // one direction loses what the released stress of the other had put on it, nu times the release.
-// Strength, rate factor and delay after [pyttel2011] and [brokmann2023]; crack frame fixed in the
-// co-rotational frame.
+// The faces of a crack slide on each other once the shear exceeds what is left of that strength
+// plus Coulomb friction on their pressure; the slip stays when they close again, so that no closed
+// path of strains gives energy. Strength, rate factor and delay after [pyttel2011] and
+// [brokmann2023]; crack frame fixed in the co-rotational frame.
 #pragma once
 
 #include "fe_node/material/shell_law.h"
@@ -23,11 +25,12 @@ struct ShellGlass {
   double strength = 0;         ///< Pa, principal tension
   double delay = 50e-6;        ///< s above the strength before a crack opens
   double fading_time = 20e-6;  ///< s from full strength to none
+  double friction = 0.4;       ///< of crack faces [E]
   GlassFracture fracture = GlassFracture::Local;
 
   /// History: strain xx yy xy, crack direction (cos, sin), per crack the time above the strength
-  /// and, from its opening, the time since.
-  enum Slot { kXx, kYy, kXy, kCos, kSin, kAbove1, kSince1, kAbove2, kSince2, kSize };
+  /// and, from its opening, the time since; shear strain of the cracks' slip.
+  enum Slot { kXx, kYy, kXy, kCos, kSin, kAbove1, kSince1, kAbove2, kSince2, kSlip, kSize };
   int history_size() const { return kSize; }
   template <class N>
   void initialise(N* history) const {
@@ -84,11 +87,11 @@ struct ShellGlass {
     const N release_t = larger(N(tt - cap_t), zero);
     nn -= larger(release_n, N(poisson_ratio * release_t));
     tt -= larger(release_t, N(poisson_ratio * release_n));
-    const N shear_cap = smaller(cap_n, cap_t);
-    // an open crack carries no more shear than it carries tension; a closed one keeps its shear
-    const N is_opening = where_less(zero, N(release_n + release_t), one, zero);
-    const N capped = larger(smaller(nt, shear_cap), N(-shear_cap));
-    nt = is_opening * capped + (1.0 - is_opening) * nt;
+    const N grip = smaller(N(cap_n + friction * larger(N(-nn), zero)),
+                           N(cap_t + friction * larger(N(-tt), zero)));
+    const N stuck = nt - shear * history[kSlip];
+    nt = larger(smaller(stuck, grip), N(-grip));
+    history[kSlip] += (stuck - nt) * (1 / shear);
 
     const N mean2 = 0.5 * (nn + tt), half2 = 0.5 * (nn - tt);
     const N cc = c * c - d * d, ss = 2.0 * c * d;

@@ -1,3 +1,5 @@
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "fe_node/element/shell_section.h"
@@ -157,6 +159,53 @@ TEST(ShellGlass, SecondCrackIsNormalToTheFirst) {
   for (int i = 0; i < 5; ++i) point.strain({}, 1e-6);
   EXPECT_NEAR(point.stress.yy, 0, 1);
   EXPECT_NEAR(point.stress.xx, 0, 1);
+}
+
+TEST(ShellGlass, FacesSlideUnderFrictionAndStayWhereTheySlidTo) {
+  const ShellGlass glass{2500, 70e9, 0.23, 80e6, 0, 1e-6};
+  const double shear = 0.5 * 70e9 / 1.23, e = 2 * 80e6 / 70e9;
+  Point<ShellGlass> point(glass);
+  point.strain({e, 0, 0, 0, 0});
+  for (int i = 0; i < 5; ++i) point.strain({});
+  point.strain({0, 0, 0.01, 0, 0});
+  EXPECT_NEAR(point.stress.xy, 0, 1) << "an open crack carries no shear";
+  point.strain({-e, 0, 0, 0, 0});
+  EXPECT_NEAR(point.stress.xy, 0, 1) << "nor does its closing bring back what it slid by";
+  point.strain({-1e-3, 0, 0, 0, 0});
+  const double pressure = -point.stress.xx;
+  EXPECT_GT(pressure, 70e6);
+  point.strain({0, 0, -1e-4, 0, 0});
+  EXPECT_NEAR(point.stress.xy, -1e-4 * shear, 1) << "it sticks";
+  point.strain({0, 0, -5e-3, 0, 0});
+  EXPECT_NEAR(point.stress.xy, -glass.friction * pressure, 1) << "and slips";
+}
+
+/// Round a polygon of strains in small steps, cracked once or twice: work per volume, J/m3, must
+/// not come out of it. The steps' own error is of their size squared.
+TEST(ShellGlass, NoClosedPathOfStrainsGivesEnergy) {
+  constexpr int kSteps = 2000;
+  constexpr double kElastic = 0.5 * 70e9 * 4e-3 * 4e-3;
+  std::mt19937 random(1);
+  std::normal_distribution<double> size(0, 4e-3);
+  for (int trial = 0; trial < 40; ++trial) {
+    Point<ShellGlass> point(ShellGlass{2500, 70e9, 0.23, 80e6, 0, 1e-6});
+    const auto crack = [&point](const PlaneTensor<double>& strain) {
+      point.strain(strain);
+      for (int i = 0; i < 5; ++i) point.strain({});
+    };
+    crack({4e-3, 0, 0, 0, 0});
+    if (trial % 2) crack({0, 4e-3, 0, 0, 0});
+    point.work_done = 0;
+    PlaneTensor<double> back{};
+    const auto go = [&](const PlaneTensor<double>& by) {
+      for (int i = 0; i < kSteps; ++i)
+        point.strain({by.xx / kSteps, by.yy / kSteps, by.xy / kSteps, 0, 0});
+      back = {back.xx - by.xx, back.yy - by.yy, back.xy - by.xy, 0, 0};
+    };
+    for (int side = 0; side < 4; ++side) go({size(random), size(random), 2 * size(random), 0, 0});
+    go(back);
+    EXPECT_GT(point.work_done, -1e-5 * kElastic) << "trial " << trial;
+  }
 }
 
 TEST(ShellGlass, SwitchedOffItIsElastic) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/error.h"
 #include "fe_node/contact/candidates.h"
@@ -33,6 +34,10 @@ enum ResultSlot {
   kOmega2,
   kResultSlots
 };
+/// Facets nearer to each other than this, of distance and reach, are equally near; the slack, of
+/// the farthest reach, leaves no doubt.
+constexpr double kTie = 1e-9, kTieSlack = 1e-6;
+
 struct Touch {
   const ContactFacet* facet = nullptr;
   int index = -1;
@@ -119,6 +124,19 @@ void PenaltyContact::initialise(ContactHistory& history, const ContactContext& c
   }
 }
 
+/// The nearest of the facets that are due is not farther than this.
+double farthest_of_nearest(const ContactPass& pass, const NearNode& near,
+                           const ContactContext& context, const Vec3& x, double travel,
+                           const double* due_candidates) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < near.candidates.size(); ++i) {
+    if (travel < due_candidates[i]) continue;
+    const FacetCorners corners = corners_of(pass.facets[near.candidates[i]], context.nodes);
+    least = std::min(least, distance_bounds(x, corners).most);
+  }
+  return least;
+}
+
 /// The nearest facet; of two equally near ones, that which the node faces more squarely.
 Touch PenaltyContact::nearest(int pass_index, const NearNode& near, const ContactContext& context,
                               const double* memory, double travel, double* due_candidates) const {
@@ -128,6 +146,7 @@ Touch PenaltyContact::nearest(int pass_index, const NearNode& near, const Contac
   double best_distance = 1e300;
   const ContactNode& node = pass.nodes[near.node];
   const Vec3 x = context.nodes[node.node].position();
+  const double most = farthest_of_nearest(pass, near, context, x, travel, due_candidates);
   const Vec3 last_u = Eigen::Map<const Vec3>(memory + kDirection);
   const bool was_touching = memory[kTouches] > 0;
   for (std::size_t i = 0; i < near.candidates.size(); ++i) {
@@ -136,6 +155,12 @@ Touch PenaltyContact::nearest(int pass_index, const NearNode& near, const Contac
     const ContactFacet& facet = pass.facets[f];
     Touch t;
     t.corners = corners_of(facet, context.nodes);
+    const DistanceBounds bounds = distance_bounds(x, t.corners);
+    if (bounds.least > farthest) {
+      due_candidates[i] = travel + (bounds.least - farthest);
+      continue;
+    }
+    if (bounds.least > most + kTieSlack * farthest) continue;
     t.projection = closest_point(x, t.corners, facet.is_triangle());
     if (t.projection.distance > farthest) {
       due_candidates[i] = travel + (t.projection.distance - farthest);
@@ -161,7 +186,7 @@ Touch PenaltyContact::nearest(int pass_index, const NearNode& near, const Contac
       t.distance = -d;
     }
     t.penetration = reach - t.distance;
-    const double tie = 1e-9 * (d + reach);
+    const double tie = kTie * (d + reach);
     if (d < best_distance - tie || (d < best_distance + tie && t.steepness > best.steepness)) {
       best = t;
       best.facet = &facet;

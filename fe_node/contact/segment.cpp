@@ -1,5 +1,7 @@
 #include "fe_node/contact/segment.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace crosswalk::fe {
@@ -72,6 +74,14 @@ Projection closest_point(const Vec3& p, const FacetCorners& x, bool is_triangle)
   out.normal = (x[(out.sector + 1) % 4] - a).cross(centre - a).normalized();
   out.distance = std::sqrt(best);
   return out;
+}
+
+DistanceBounds distance_bounds(const Vec3& p, const FacetCorners& x) {
+  const Vec3 centre = centre_of(x);
+  double radius2 = 0;
+  for (const Vec3& corner : x) radius2 = std::max(radius2, (corner - centre).squaredNorm());
+  const double most = (p - centre).norm();
+  return {most - std::sqrt(radius2), most};
 }
 
 std::array<Vec3, 4> weight_gradients(const FacetCorners& x, bool is_triangle, int sector) {

@@ -21,6 +21,13 @@ struct Projection {
 
 Projection closest_point(const Vec3& p, const FacetCorners& x, bool is_triangle);
 
+/// What the distance of a facet is at least and at most, m: from the mean of its corners, which
+/// lies on it, and the sphere about that mean which holds it.
+struct DistanceBounds {
+  double least = 0, most = 0;
+};
+DistanceBounds distance_bounds(const Vec3& p, const FacetCorners& x);
+
 /// Gradients of the corner weights in the plane of the sub-triangle, 1/m: they sum to zero, and
 /// sum x_i (gradient_i . q) = q for every q in that plane.
 std::array<Vec3, 4> weight_gradients(const FacetCorners& x, bool is_triangle, int sector);

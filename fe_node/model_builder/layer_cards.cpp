@@ -112,10 +112,10 @@ std::optional<ShellSection> glass_section(BuildContext& c, const Part& part,
     return std::nullopt;
   }
   c.note(
-      fmt::format("{}: panes crack where the principal tension has stood above SYG for {:g} us; "
-                  "EFG and ETG are "
-                  "not used",
-                  who, 1e6 * glass.delay));
+      fmt::format("{}: panes crack where the principal tension has stood above SYG for {:g} us, "
+                  "and the faces of cracks rub with a friction of {:g} (an estimate); EFG and ETG "
+                  "are not used",
+                  who, 1e6 * glass.delay, glass.friction));
   const ShellLaw polymer = interlayer(m, density, stress);
   if (points->empty()) {
     c.note(fmt::format("{}: {} plies of equal thickness, for want of an *INTEGRATION_SHELL", who,

@@ -53,6 +53,9 @@ TEST(Segment, WeightsGiveThePointAndNoPointIsNearer) {
       EXPECT_NEAR(sum, 1, 1e-14);
       EXPECT_LT((point - found.point).norm(), 1e-14);
       EXPECT_NEAR((p - found.point).norm(), found.distance, 1e-14);
+      const DistanceBounds bounds = distance_bounds(p, x);
+      EXPECT_LE(bounds.least, found.distance + 1e-14);
+      EXPECT_GE(bounds.most, found.distance - 1e-14);
       for (int k = 0; k < 20; ++k) {  // random points of the facet are no nearer
         const Vec3 w = (noise3(7 * i + k) + Vec3::Ones()) / 2;
         const Vec3 centre = 0.25 * (x[0] + x[1] + x[2] + x[3]);

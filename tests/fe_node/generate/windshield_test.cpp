@@ -1,6 +1,7 @@
 // Generated windshields: size, mass, normals and numbering.
 #include "fe_node/generate/windshield.h"
 
+#include <algorithm>
 #include <numeric>
 #include <set>
 
@@ -61,6 +62,23 @@ TEST(Windshield, LaminateRuleFillsTheThickness) {
   EXPECT_NEAR(sum, 1, 1e-12);
   const double pvb = spec.pvb_thickness / (2 * spec.glass_thickness + spec.pvb_thickness);
   EXPECT_NEAR(moment, (1 - pvb * pvb * pvb) / 3, 1e-12);  // bending, but for the interlayer's own
+}
+
+TEST(Windshield, GlassIsIntegratedFullyAndSheetAtOnePoint) {
+  WindshieldSpec spec;
+  spec.cell = 0.1;
+  for (const auto& [kind, elform] :
+       {std::pair{WindshieldKind::Laminated, 16}, std::pair{WindshieldKind::Panel, 2}}) {
+    spec.kind = kind;
+    const Deck deck = generate_windshield(spec);
+    const auto pane = std::find_if(deck.parts.begin(), deck.parts.end(),
+                                   [](const Part& part) { return part.title == "windshield"; });
+    ASSERT_NE(pane, deck.parts.end());
+    const auto section = std::find_if(deck.sections.begin(), deck.sections.end(),
+                                      [&](const Section& s) { return s.id == pane->section; });
+    ASSERT_NE(section, deck.sections.end());
+    EXPECT_EQ(std::get<SectionShell>(section->law).formulation, elform);
+  }
 }
 
 /// A head of somebody's own: numbers where the generators' lie, and beyond.

@@ -61,7 +61,7 @@ struct Accumulator {
     n.zx += shear_share * s.zx;
     sum.thinning += point.weight * point_answer.thinning;
     sum.alive = larger(sum.alive, point_answer.alive);
-    sum.intact += point.weight * law.youngs_modulus * point_answer.intact;
+    sum.youngs += point.weight * law.youngs_modulus * point_answer.intact;
   }
 };
 
@@ -99,7 +99,6 @@ SectionAnswer<N> integrate_section(const ShellSection& section, const SectionVec
   for (const ShellLayer& layer : section.layers)
     history = std::visit(
         [&](const auto& law) { return accumulator.layer(law, layer.points, history); }, layer.law);
-  accumulator.answer.intact *= 1 / section.youngs_modulus();
   return accumulator.answer;
 }
 

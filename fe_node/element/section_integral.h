@@ -13,7 +13,7 @@ struct SectionAnswer {
   N work;      ///< J/m2, of this step
   N thinning;  ///< mean normal strain increment
   N alive;     ///< 0 when every point has failed
-  N intact;    ///< share of the elastic stiffness in the plane that cracks have left
+  N youngs;    ///< Pa, what cracks have left of the elastic modulus, mean over the thickness
 };
 
 /// Numbers of history a section keeps.

@@ -70,7 +70,9 @@ ShellAnswer<N, corners> OnePointShell<N, corners>::answer(const ShellMotion<N, c
     shell_loads(motion.end, section.resultants, i, out.force[i], out.moment[i]);
   if constexpr (kCorners == 4)
     if (matter_.controls.hourglass != HourglassForm::None)
-      add_hourglass(motion, larger(section.intact, constant<N>(kLeastIntact)), history, out);
+      add_hourglass(
+          motion, larger(N(section.youngs * (1 / matter_.mean_youngs)), constant<N>(kLeastIntact)),
+          history, out);
   return out;
 }
 

@@ -124,8 +124,12 @@ std::optional<ShellSection> glass_section(BuildContext& c, const Part& part,
   }
   ShellSection section;
   section.thickness = thickness;
-  for (std::size_t i = 0; i < points->size(); ++i)
-    section.layers.push_back({flags[i] > 0.5 ? polymer : ShellLaw(glass), {(*points)[i]}});
+  const auto is_polymer = [&flags](std::size_t point) { return flags[point] > 0.5; };
+  for (std::size_t i = 0; i < points->size(); ++i) {
+    if (i == 0 || is_polymer(i) != is_polymer(i - 1))
+      section.layers.push_back({is_polymer(i) ? polymer : ShellLaw(glass), {}});
+    section.layers.back().points.push_back((*points)[i]);
+  }
   section.shear_factor = series_shear_factor(section);
   return section;
 }

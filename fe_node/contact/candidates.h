@@ -1,10 +1,11 @@
 // Which pairs of a contact must be looked at in a step.
 //
-// Candidate pairs come from a grid search. A pair farther apart than anything can touch is not
-// looked at again before the fastest node (relative to the mean motion of the interface) could have
-// closed the gap from both sides, and the search is repeated when that motion has used up the
-// search margin; so a pair is found from nearness alone, and the answer does not depend on when the
-// search ran. What slides past costs no more than what stands still.
+// Candidate pairs come from a grid search. A pair farther apart than anything can touch, or than
+// the node is from a nearer facet, is not looked at again before the fastest node (relative to the
+// mean motion of the interface) could have closed the gap from both sides, and the search is
+// repeated when that motion has used up the search margin; so a pair is found from nearness alone,
+// and the answer does not depend on when the search ran. What slides past costs no more than what
+// stands still.
 //
 // Facets of elements that have failed are gone, and with them nodes that no facet is left of; where
 // the surface keeps inner faces (InnerFaces::Kept) those uncovered by the failure come in.

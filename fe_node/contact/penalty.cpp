@@ -149,23 +149,23 @@ Touch PenaltyContact::nearest(int pass_index, const NearNode& near, const Contac
   const double most = farthest_of_nearest(pass, near, context, x, travel, due_candidates);
   const Vec3 last_u = Eigen::Map<const Vec3>(memory + kDirection);
   const bool was_touching = memory[kTouches] > 0;
+  // A facet out of reach, or farther than the nearest by a gap of which each has to move half
+  // before that can change, is not looked at until then.
+  const auto can_wait = [&](std::size_t i, double distance) {
+    const double gap = distance - std::min(best_distance, most) - kTieSlack * farthest;
+    const double wait = std::max(distance - farthest, 0.5 * gap);
+    if (wait > 0) due_candidates[i] = travel + wait;
+    return wait > 0;
+  };
   for (std::size_t i = 0; i < near.candidates.size(); ++i) {
     if (travel < due_candidates[i]) continue;
     const int f = near.candidates[i];
     const ContactFacet& facet = pass.facets[f];
     Touch t;
     t.corners = corners_of(facet, context.nodes);
-    const DistanceBounds bounds = distance_bounds(x, t.corners);
-    if (bounds.least > farthest) {
-      due_candidates[i] = travel + (bounds.least - farthest);
-      continue;
-    }
-    if (bounds.least > most + kTieSlack * farthest) continue;
+    if (can_wait(i, distance_bounds(x, t.corners).least)) continue;
     t.projection = closest_point(x, t.corners, facet.is_triangle());
-    if (t.projection.distance > farthest) {
-      due_candidates[i] = travel + (t.projection.distance - farthest);
-      continue;
-    }
+    if (can_wait(i, t.projection.distance)) continue;
     const double reach = settings_.thickness_scale * (node.half_thickness + facet.half_thickness);
     const double d = t.projection.distance;
     const Vec3 away = x - t.projection.point;

@@ -172,8 +172,9 @@ TEST(RunCompare, TwoCouplingsOfOneModelShowTheirErrorBar) {
   ASSERT_EQ(table->rows.size(), 1U);
   const std::vector<std::string>& row = table->rows[0];
   EXPECT_THAT(row[0], HasSubstr("implicit 10 us against mic 20 us"));
-  EXPECT_EQ(row[1], "0.040");
-  EXPECT_EQ(row[3], "0.50");
+  EXPECT_EQ(row[1], "0.0000");
+  EXPECT_EQ(row[2], "0.0400");
+  EXPECT_EQ(row[4], "0.50");
   EXPECT_THAT(comparison_text({mic, mic}), testing::Not(HasSubstr("Error bar")));
 }
 

@@ -14,6 +14,7 @@
 #include "fe_node/output/field_writer.h"
 #include "fe_node/output/state_bytes.h"
 #include "fe_node/own_head.h"
+#include "fe_node/solver.h"
 
 namespace crosswalk::fe {
 namespace {
@@ -173,6 +174,7 @@ FeReply FeNode::run_window(const FeGrant& grant) {
              1e3 * run_.state.time);
   }
   last_window_ = advance_window(model, node_.boundary, grant, run_.state, *scratch_, &watch_);
+  tell_short_step();
   const WindowLoads& window = last_window_;
   progress_ += window.substeps;
   FeReply reply;
@@ -193,6 +195,21 @@ FeReply FeNode::run_window(const FeGrant& grant) {
   for (std::size_t c : node_.car_contacts) on_car += scratch_->contact_reports[c].force;
   reply.head_contact_force = on_car.norm();
   return reply;
+}
+
+/// Who makes the run slow: said whenever the step has lost another fifth.
+void FeNode::tell_short_step() {
+  constexpr double kWorthTelling = 0.8;
+  const State& state = run_.state;
+  if (told_step_ <= 0) told_step_ = state.stable_step;
+  if (state.stable_step > kWorthTelling * told_step_) return;
+  told_step_ = state.stable_step;
+  const StepReport& limit = state.element_limit;
+  log_info("{:.2f} ms: the stable step has fallen to {:.3g} us, for {}", 1e3 * state.time,
+           1e6 * state.stable_step,
+           limit.stable_step > state.stable_step || limit.critical_element < 0
+               ? "a contact"
+               : describe_element(node_.built.model, limit.critical_block, limit.critical_element));
 }
 
 FeReply FeNode::advance(const FeGrant& grant, RecordSink& sink) {

@@ -45,6 +45,7 @@ class FeNode : public FeParticipant {
   void compare_with_multibody_head() const;
   void cut_neck(const std::vector<int>& head_parts);
   FeReply run_window(const FeGrant& grant);
+  void tell_short_step();
   void publish(const WindowId& id, RecordSink& sink);
   void start_motion_log(const Pose& X_WD, const Twist& V_WD);
 
@@ -66,6 +67,7 @@ class FeNode : public FeParticipant {
   Run run_, saved_;
   FeReply last_reply_;
   std::atomic<std::int64_t> progress_{0};
+  double told_step_ = 0;  ///< s, the stable step last told
 };
 
 }  // namespace crosswalk::fe

@@ -68,7 +68,7 @@ void BlockMotionLog::write_deck(const std::filesystem::path& folder) const {
     }
   const double scale = std::min(1.0, kStepReserve * setup_.step_scale);
   fmt::print(out, "*INCLUDE\ndriven/step.k\n*CONTROL_TIMESTEP\n0.0,{:.17g},0,0.0,{:.17g},{}\n",
-             scale, -setup_.element_step * scale / units.time, curve++);
+             scale, -setup_.least_step * scale / units.time, curve++);
   const Vec3 gravity = q_DW * setup_.gravity / units.acceleration();
   for (int axis = 0; axis < 3; ++axis) {
     if (gravity[axis] == 0) continue;

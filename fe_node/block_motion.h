@@ -28,7 +28,7 @@ struct BlockMotionSetup {
   Pose X_WD;  ///< of the deck at the start
   Twist V_WD;
   Vec3 gravity = Vec3::Zero();       ///< m/s2, W
-  double element_step = 0;           ///< s: elements that need less got mass
+  double least_step = 0;             ///< s, unscaled: nodes that needed less got mass
   double step_scale = 0.9;           ///< of the run
   std::string deck = "head_neck.k";  ///< beside driven.k
 };

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kMostCorners = 10;
 
-/// The elements' stable step, a tenth of a kernel's work, is found every so many steps. Within four
-/// steps of 0.9 of it nothing moves further than a wave runs through three cells, and a cell that
-/// is pressed in at a tenth of the wave speed loses less than the remaining tenth.
+/// The elements' stiffnesses, a tenth of a kernel's work, are found every so many steps. Within
+/// four steps of 0.9 of it nothing moves further than a wave runs through three cells, and a cell
+/// that is pressed in at a tenth of the wave speed loses less than the remaining tenth.
 constexpr int kStepsPerLimit = 4;
 
 bool wants_limit(const State& state) {
@@ -72,10 +72,7 @@ void add(const BlockSums& part, BlockSums& sum) {
   sum.hourglass_dissipated += part.hourglass_dissipated;
   sum.viscous_dissipated += part.viscous_dissipated;
   sum.failed += part.failed;
-  if (part.stable_step < sum.stable_step) {
-    sum.stable_step = part.stable_step;
-    sum.critical_element = part.critical_element;
-  }
+  sum.limit(part.critical_element, part.least_step);
   if (part.inverted_element >= 0 && sum.inverted_element < 0) {
     sum.inverted_element = part.inverted_element;
     sum.inverted_jacobian = part.inverted_jacobian;
@@ -125,7 +122,7 @@ StepReport sum_blocks(const Model& model, State& state, Scratch& scratch) {
     add(scratch.tile_sums[t], scratch.block_sums[model.tiles.tiles[t].block]);
 
   StepReport limit;
-  limit.stable_step = std::numeric_limits<double>::infinity();
+  double least_step = std::numeric_limits<double>::infinity();
   Energies& e = state.energies;
   e.internal = e.hourglass_stored = 0;
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
@@ -139,9 +136,15 @@ StepReport sum_blocks(const Model& model, State& state, Scratch& scratch) {
     e.hourglass_stored += sums.hourglass;
     e.hourglass_dissipated += sums.hourglass_dissipated;
     e.viscous += sums.viscous_dissipated;
-    if (sums.stable_step < limit.stable_step) limit = {sums.stable_step, b, sums.critical_element};
+    if (!(sums.least_step < least_step)) continue;
+    least_step = sums.least_step;
+    limit.critical_block = b;
+    limit.critical_element = sums.critical_element;
   }
-  if (wants_limit(state)) state.element_limit = limit;
+  if (wants_limit(state)) {
+    limit.stable_step = nodal_stable_step(model, state, scratch);
+    state.element_limit = limit;
+  }
   return state.element_limit;
 }
 

@@ -9,8 +9,8 @@ namespace crosswalk::fe {
 
 /// Fills the rows and sums of every tile that is awake.
 void element_forces(const Model& model, State& state, Scratch& scratch);
-/// Adds the tiles' sums up and books the energies. Throws NumericalError where an element is
-/// inverted.
+/// Adds the tiles' sums up, books the energies and tells what step the elements allow. Throws
+/// NumericalError where an element is inverted.
 StepReport sum_blocks(const Model& model, State& state, Scratch& scratch);
 /// Flags the elements that have failed, when their number has changed: more have failed, or the
 /// state is another one.

@@ -137,7 +137,7 @@ FeConfig read_fe_config(ConfigDocument& document, const Scenario& scenario) {
   config.added_mass_limit =
       fe.quantity_or("added_mass_limit", Dimension::None, {0, 0.05}, 0.01,
                      "Share of the mass of head and neck (the windshield does not count) that mass "
-                     "scaling may add, and never more than 5 % of a part; 0: no scaling.");
+                     "scaling may add, and never more than 0.2 % of a part; 0: no scaling.");
   if (fe.choice_or("precision", {"double", "single"}, "single",
                    "Numbers in which elements compute; nodes and sums are double always.") ==
       "double")

@@ -205,11 +205,12 @@ void FeNode::tell_short_step() {
   if (state.stable_step > kWorthTelling * told_step_) return;
   told_step_ = state.stable_step;
   const StepReport& limit = state.element_limit;
-  log_info("{:.2f} ms: the stable step has fallen to {:.3g} us, for {}", 1e3 * state.time,
-           1e6 * state.stable_step,
-           limit.stable_step > state.stable_step || limit.critical_element < 0
-               ? "a contact"
-               : describe_element(node_.built.model, limit.critical_block, limit.critical_element));
+  log_info(
+      "{:.2f} ms: the stable step has fallen to {:.3g} us, the shortest by itself is that of {}",
+      1e3 * state.time, 1e6 * state.stable_step,
+      limit.stable_step > state.stable_step || limit.critical_element < 0
+          ? "a contact"
+          : describe_element(node_.built.model, limit.critical_block, limit.critical_element));
 }
 
 FeReply FeNode::advance(const FeGrant& grant, RecordSink& sink) {

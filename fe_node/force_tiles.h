@@ -54,12 +54,20 @@ void add_corners(const double* corners, const std::uint16_t* row_of_corner, int 
 
 using ForceRow = Eigen::Map<const Eigen::Vector4d, Eigen::Aligned32>;
 
-/// Sum of a node's rows.
+/// Sum of a node's rows: what acts on it.
 inline Vec3 sum_of_rows(const NodeRows& table, const double* rows, int node) {
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();
   for (int k = table.begin[node]; k < table.begin[node + 1]; ++k)
     sum += ForceRow(rows + std::size_t{kCornerStride} * table.row[k]);
   return sum.head<3>();
+}
+
+/// Sum of the stiffnesses that came with them.
+inline double stiffness_of_rows(const NodeRows& table, const double* rows, int node) {
+  double sum = 0;
+  for (int k = table.begin[node]; k < table.begin[node + 1]; ++k)
+    sum += rows[std::size_t{kCornerStride} * table.row[k] + kCornerStiffness];
+  return sum;
 }
 
 }  // namespace crosswalk::fe

@@ -19,15 +19,29 @@ void lump_masses(Model& model) {
   if (has_rotations) model.inertia.assign(node_count, 0.0);
   for (const auto& block : model.blocks)
     for (int element = 0; element < block->element_count(); ++element) {
-      const double added = block->added_mass(element);
-      model.added_mass[block->part()] += added;
-      model.part_mass[block->part()] += block->corners() * block->corner_mass(element) - added;
+      model.part_mass[block->part()] += block->corners() * block->corner_mass(element);
       for (int corner = 0; corner < block->corners(); ++corner) {
         const int node = block->node(element / kLanes, corner, element % kLanes);
         model.mass[node] += block->corner_mass(element);
         if (block->has_moments()) model.inertia[node] += block->corner_inertia(element);
       }
     }
+}
+
+/// Adds the mass that the wanted step lacks, and notes what resists the elements of each node.
+void scale_masses(Model& model) {
+  model.resisting = resisting_mass(model);
+  if (!(model.settings.mass_scaling_step > 0)) return;
+  const AddedMass added = added_mass_for(model, model.settings.mass_scaling_step);
+  model.added_mass = added.parts;
+  for (std::size_t n = 0; n < model.mass.size(); ++n) {
+    model.mass[n] += added.nodes.mass[n];
+    model.resisting.mass[n] += added.nodes.mass[n];
+  }
+  for (std::size_t n = 0; n < model.inertia.size(); ++n) {
+    model.inertia[n] += added.nodes.inertia[n];
+    model.resisting.inertia[n] += added.nodes.inertia[n];
+  }
 }
 
 /// A tied node hands its mass to the nodes it follows.
@@ -71,6 +85,7 @@ void Model::finish() {
   CW_ASSERT(mass.empty());
   tiles = make_force_tiles(blocks, mesh.node_count());
   lump_masses(*this);
+  scale_masses(*this);
   hand_over_tied_masses(*this);
   body_of_node.assign(mesh.node_count(), -1);
   for (int b = 0; b < static_cast<int>(bodies.size()); ++b) finish_body(*this, b);

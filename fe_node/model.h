@@ -14,14 +14,15 @@
 #include "fe_node/force_tiles.h"
 #include "fe_node/mesh/mesh.h"
 #include "fe_node/sleeper.h"
+#include "fe_node/stable_step.h"
 
 namespace crosswalk::fe {
 
 struct SolverSettings {
-  double step_scale = 0.9;       ///< of the smallest stable step [hallquist2006, 22.1]
+  double step_scale = 0.9;       ///< of the stable step [hallquist2006, 22.1]
   double fixed_step = 0;         ///< s; > 0 overrules the estimate
   Curve step_limit;              ///< s over time: no step is longer; may be empty
-  double mass_scaling_step = 0;  ///< s; > 0: mass is added so that no element needs less
+  double mass_scaling_step = 0;  ///< s, unscaled; > 0: mass is added so that no node's is less
   double mass_damping = 0;       ///< 1/s, Rayleigh alpha on all nodes
   Vec3 gravity = Vec3::Zero();   ///< m/s2
 };
@@ -54,11 +55,12 @@ struct Model {
   /// kg per node as a contact feels it: nodes of a rigid body share the body's mass.
   std::vector<double> contact_mass;
   std::vector<double> inertia;     ///< kg m2 per node; empty without shells
+  NodalMass resisting;             ///< see stable_step.h
   std::vector<int> body_of_node;   ///< index into bodies, or -1
   std::vector<double> added_mass;  ///< kg per part, by mass scaling
   std::vector<double> part_mass;   ///< kg per part, of its elements before that
 
-  /// Lumps masses, scales mass, cuts the force tiles. Call once, last.
+  /// Lumps masses, adds what the settings ask for, cuts the force tiles. Call once, last.
   void finish();
   double total_mass() const;  ///< kg, added mass and rigid parts included
   bool has_rotations() const { return !inertia.empty(); }

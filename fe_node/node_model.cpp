@@ -67,7 +67,7 @@ class Assembly {
       spec.units = deck.units != UnitSystem::Unknown ? deck.units : config_.head_neck.units;
       const Deck pane = generate::generate_windshield(spec);
       write(pane, "windshield.k");
-      step = std::min(step, config_.step_scale * initial_stable_step(build_model(pane, {}).model));
+      step = std::min(step, initial_stable_step(build_model(pane, {}).model));
       for (const DeckNode& node : deck.nodes)
         options_.last_nodes_from = std::max(options_.last_nodes_from, node.id.value + 1);
       generate::join_windshield(deck, spec, kHeadSurface, config_.vehicle_friction);
@@ -120,13 +120,10 @@ class Assembly {
     }
   }
 
-  /// The step up to which the head and neck alone may be scaled, s; 0: not at all.
+  /// The unscaled step up to which the head and neck alone may be scaled, s; 0: not at all.
   double scaling_step(const Deck& deck) const {
     if (!(config_.added_mass_limit > 0)) return 0;
-    BuildOptions options = options_;
-    BuiltModel trial = build_model(deck, options);
-    trial.model.settings.step_scale = config_.step_scale;
-    return mass_scaling_step_for(trial.model, config_.added_mass_limit);
+    return mass_scaling_step_for(build_model(deck, options_).model, config_.added_mass_limit);
   }
 
   void set_up_motion_log(const Deck& deck) {
@@ -137,8 +134,7 @@ class Assembly {
           motion.blocks.push_back({interface.body, part.id.value});
     motion.units = deck.units != UnitSystem::Unknown ? deck.units : options_.units;
     motion.gravity = {0, 0, -config_.gravity};
-    motion.element_step =
-        options_.mass_scaling_step / (deck.control.time_step ? deck.control.time_step->scale : 0.9);
+    motion.least_step = options_.mass_scaling_step;
     motion.step_scale = config_.step_scale;
   }
 

@@ -348,14 +348,6 @@ double next_step(const Model& model, const State& state, const StepReport& repor
   return std::min(step, model.settings.step_limit.value(state.time));
 }
 
-double initial_stable_step(const Model& model) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const auto& block : model.blocks)
-    for (int element = 0; element < block->element_count(); ++element)
-      smallest = std::min(smallest, block->initial_stable_step(element));
-  return smallest;
-}
-
 std::string describe_element(const Model& model, int block, int element) {
   const ElementBlock& b = *model.blocks[block];
   const MeshPart& part = model.mesh.parts[b.part()];

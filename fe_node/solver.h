@@ -59,8 +59,6 @@ StepReport advance_step(const Model& model, State& state, Scratch& scratch, doub
 
 /// The step to take, s: the scaled stable one, or less where the settings limit it.
 double next_step(const Model& model, const State& state, const StepReport& report);
-/// The stable step at the start, s, unscaled.
-double initial_stable_step(const Model& model);
 /// "element 10457 (part 88 'cerebrum', hex8)".
 std::string describe_element(const Model& model, int block, int element);
 

@@ -17,16 +17,16 @@ namespace crosswalk::fe {
 using LaneVector = std::vector<double, Eigen::aligned_allocator<double>>;
 
 struct StepReport {
-  double stable_step = 0;   ///< s, smallest over elements and contacts, unscaled
-  int critical_block = -1;  ///< block and block-local element that set it; -1: a contact
-  int critical_element = -1;
+  double stable_step = 0;  ///< s, smallest over nodes and contacts, unscaled
+  /// Block and block-local element with the smallest step of its own; -1: a contact's is smaller.
+  int critical_block = -1, critical_element = -1;
 };
 
 struct State {
-  double time = 0;         ///< s
-  std::int64_t step = 0;   ///< steps done
-  double last_dt = 0;      ///< s, of the step that led here
-  double stable_step = 0;  ///< s, unscaled, of the last force evaluation; 0 before the first
+  double time = 0;           ///< s
+  std::int64_t step = 0;     ///< steps done
+  double last_dt = 0;        ///< s, of the step that led here
+  double stable_step = 0;    ///< s, unscaled, of the last force evaluation; 0 before the first
   StepReport element_limit;  ///< what the elements allow, found anew every few steps
   std::int64_t awake_from = kAsleep;  ///< step at which a sleeper woke
   std::vector<NodeRecord> nodes;

@@ -30,18 +30,13 @@ Mat3 triad(const Vec3& axis, const Vec3& in_plane) {
 class BeamBlock final : public ElementBlock {
  public:
   BeamBlock(const Mesh& mesh, int part, std::vector<int> elements, const BeamSection& section,
-            std::span<const Vec3> in_plane, double minimum_step)
+            std::span<const Vec3> in_plane)
       : ElementBlock(mesh, ElementKind::Line2, part, std::move(elements)), section_(section) {
     CW_ASSERT(static_cast<int>(in_plane.size()) == element_count());
     for (int e = 0; e < element_count(); ++e) {
       const Vec3 span = mesh.position[end(e, 1)] - mesh.position[end(e, 0)];
       length_.push_back(span.norm());
       start_.push_back(triad(span, in_plane[e]));
-      scale_.push_back(1);
-    }
-    for (int e = 0; e < element_count(); ++e) {
-      const double lacking = minimum_step / initial_stable_step(e);
-      if (lacking > 1) scale_[e] = lacking * lacking;
     }
   }
 
@@ -52,14 +47,11 @@ class BeamBlock final : public ElementBlock {
       for (int corner = 0; corner < 2; ++corner) set_end(history, e, corner, Quat(start_[e]));
   }
   double corner_mass(int element) const override {
-    return 0.5 * scale_[element] * section_.density * element_volume(element);
+    return 0.5 * section_.density * element_volume(element);
   }
   double corner_inertia(int element) const override {
     const double gyration = std::max(section_.inertia_ss, section_.inertia_tt) / section_.area;
     return corner_mass(element) * (length_[element] * length_[element] / 12 + gyration);
-  }
-  double added_mass(int element) const override {
-    return (scale_[element] - 1) * section_.density * element_volume(element);
   }
   double element_volume(int element) const override { return section_.area * length_[element]; }
   double density() const override { return section_.density; }
@@ -68,9 +60,9 @@ class BeamBlock final : public ElementBlock {
               std::span<double> corner_moments, int first, int last,
               BlockSums& sums) const override;
 
-  /// Largest frequency of the element alone: stretching, twisting, and in each plane the symmetric
-  /// and the antisymmetric bending mode.
-  double initial_stable_step(int e) const override {
+  /// By the largest frequency of the element alone: stretching, twisting, and in each plane the
+  /// symmetric and the antisymmetric bending mode.
+  double initial_stiffness(int e) const override {
     const double L = length_[e], m = 2 * corner_mass(e), j = corner_inertia(e);
     double omega2 = 4 * section_.youngs_modulus * section_.area / (L * m);
     omega2 = std::max(omega2, 2 * section_.shear_modulus * section_.torsion / (L * j));
@@ -80,7 +72,7 @@ class BeamBlock final : public ElementBlock {
       const double k = 12 * EI / (L * (1 + shear_share(I, L)));
       omega2 = std::max(omega2, k * (1 / (2 * j) + 4 / (L * L * m)));
     }
-    return 2 / std::sqrt(omega2);
+    return corner_mass(e) * omega2;
   }
 
   ElementSample sample(const StepContext& step, std::span<const double> history,
@@ -124,7 +116,7 @@ class BeamBlock final : public ElementBlock {
   }
 
   BeamSection section_;
-  std::vector<double> length_, scale_;
+  std::vector<double> length_;
   std::vector<Mat3> start_;
 };
 
@@ -171,21 +163,20 @@ void BeamBlock::forces(const StepContext& step, std::span<double> history,
     const Vec3 force = E * Vec3(-N, (t.first + t.second) / length, -(s.first + s.second) / length);
     const Vec3 moments[2] = {E * Vec3(torque, -s.first, -t.first),
                              E * Vec3(-torque, -s.second, -t.second)};
+    const double stiffness = initial_stiffness(e);
     for (int corner = 0; corner < 2; ++corner) {
       const std::size_t at = corner_slot(e / kLanes - first, corner, e % kLanes);
       Eigen::Map<Vec3>{corner_forces.data() + at} = corner == 1 ? force : Vec3(-force);
       Eigen::Map<Vec3>{corner_moments.data() + at} = moments[corner];
+      corner_forces[at + kCornerStiffness] = stiffness;
+      corner_moments[at + kCornerStiffness] = stiffness * corner_inertia(e) / corner_mass(e);
     }
     sums.internal += energy;
     if (!(length > 0) || !std::isfinite(energy)) {
       if (sums.inverted_element < 0) sums.inverted_element = e;
       sums.inverted_jacobian = length / L;
     }
-    const double stable = initial_stable_step(e);
-    if (stable < sums.stable_step) {
-      sums.stable_step = stable;
-      sums.critical_element = e;
-    }
+    sums.limit(e, initial_stable_step(e));
   }
 }
 
@@ -223,9 +214,8 @@ BeamSection tubular_beam(double density, double youngs_modulus, double poisson_r
 
 std::unique_ptr<ElementBlock> make_beam_block(const Mesh& mesh, int part, std::vector<int> elements,
                                               const BeamSection& section,
-                                              std::span<const Vec3> in_plane, double minimum_step) {
-  return std::make_unique<BeamBlock>(mesh, part, std::move(elements), section, in_plane,
-                                     minimum_step);
+                                              std::span<const Vec3> in_plane) {
+  return std::make_unique<BeamBlock>(mesh, part, std::move(elements), section, in_plane);
 }
 
 }  // namespace crosswalk::fe

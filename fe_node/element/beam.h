@@ -36,7 +36,6 @@ BeamSection tubular_beam(double density, double youngs_modulus, double poisson_r
 /// `in_plane`: per element, a vector in the plane of the axis and s.
 std::unique_ptr<ElementBlock> make_beam_block(const Mesh& mesh, int part, std::vector<int> elements,
                                               const BeamSection& section,
-                                              std::span<const Vec3> in_plane,
-                                              double minimum_step = 0);
+                                              std::span<const Vec3> in_plane);
 
 }  // namespace crosswalk::fe

@@ -30,11 +30,11 @@ void LaneSums<N>::book(BlockSums& sums) const {
   sums.viscous_dissipated += sum(viscous_dissipated);
   sums.failed += static_cast<int>(sum(failed) + 0.5);
   for (int lane = 0; lane < kWidth<N>; ++lane) {
-    const double step = std::sqrt(step_squared[lane]);
+    const double step = 2 / std::sqrt(largest_rate[lane]);
     const int element = static_cast<int>(critical_pack[lane]) * kWidth<N> + lane;
-    const bool is_first = step == sums.stable_step && element < sums.critical_element;
-    if (element < 0 || !(step < sums.stable_step || is_first)) continue;
-    sums.stable_step = step;
+    const bool is_first = step == sums.least_step && element < sums.critical_element;
+    if (critical_pack[lane] < 0 || !(step < sums.least_step || is_first)) continue;
+    sums.least_step = step;
     sums.critical_element = element;
   }
 }
@@ -47,6 +47,12 @@ N ElementBlock::lane_mask(int pack) const {
   for (int lane = 0; lane < kWidth<N>; ++lane)
     mask.set(lane, first + lane < element_count() ? 1 : 0);
   return mask;
+}
+
+double ElementBlock::initial_stable_step(int element) const {
+  const double stiffness = initial_stiffness(element);
+  if (stiffness == 0) return std::numeric_limits<double>::infinity();
+  return 2 * std::sqrt(corner_mass(element) / stiffness);
 }
 
 Vec3 ElementBlock::centre(std::span<const NodeRecord> nodes, int element) const {

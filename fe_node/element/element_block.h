@@ -4,10 +4,11 @@
 // Each step a block turns positions and velocities into one force per element corner (f_int with
 // the sign of a load on the node: the acceleration is (sum of corner forces + loads) / mass).
 // Corners are stored, not added up: the solver adds them per node in a fixed order (force_tiles.h),
-// so results are bit-identical for any number of threads. The last group is padded by repeating its
-// last element; padded lanes are never added. Blocks that compute in single precision take two
-// groups at once; positions, velocities and sums stay double, so that only the element's own
-// arithmetic is rounded.
+// so results are bit-identical for any number of threads. With each goes a bound of the element's
+// stiffness, of which the stable step is made (stable_step.h). The last group is padded by
+// repeating its last element; padded lanes are never added. Blocks that compute in single precision
+// take two groups at once; positions, velocities and sums stay double, so that only the element's
+// own arithmetic is rounded.
 #pragma once
 
 #include <limits>
@@ -32,7 +33,7 @@ struct StepContext {
       spin;         ///< angular velocity of nodes at t - dt/2, rad/s; empty without shells
   double time = 0;  ///< s, of the positions
   double dt = 0;    ///< s, from the last positions to these
-  bool wants_stable_step = true;  ///< without it BlockSums::stable_step means nothing
+  bool wants_stable_step = true;  ///< without it stiffnesses mean nothing
   int threads = 1;                ///< for prepare()
 };
 
@@ -42,11 +43,17 @@ struct BlockSums {
   double hourglass = 0;             ///< stored by stiffness control, now
   double hourglass_dissipated = 0;  ///< by viscous control, this step
   double viscous_dissipated = 0;    ///< by bulk viscosity and damping, this step
-  double stable_step = std::numeric_limits<double>::infinity();  ///< s, unscaled
-  int critical_element = -1;  ///< block-local element that sets it
+  double least_step = std::numeric_limits<double>::infinity();  ///< s, of an element alone
+  int critical_element = -1;  ///< block-local element whose step that is
   int inverted_element = -1;  ///< block-local element with J <= 0 or NaN, or -1
   double inverted_jacobian = 0;
   int failed = 0;  ///< elements that carry nothing any more
+
+  void limit(int element, double step) {
+    if (!(step < least_step)) return;
+    least_step = step;
+    critical_element = element;
+  }
 };
 
 /// Sums of a kernel's loop over packs (the elements in one number of type N), lane by lane; booked
@@ -55,13 +62,14 @@ template <class N>
 struct LaneSums {
   N internal = constant<N>(0), hourglass = constant<N>(0), hourglass_dissipated = constant<N>(0),
     viscous_dissipated = constant<N>(0), failed = constant<N>(0);
-  N step_squared = constant<N>(std::numeric_limits<double>::infinity());
+  N largest_rate = constant<N>(0);  ///< stiffness over mass of a corner, 1/s2
   N critical_pack = constant<N>(-1);
 
-  /// `squared` of lanes that do not count must be infinite.
-  void limit_step(const N& squared, int pack) {
-    critical_pack = where_less(squared, step_squared, constant<N>(pack), critical_pack);
-    step_squared = smaller(squared, step_squared);
+  /// Of lanes that do not count the stiffness must be zero.
+  void look_for_stiffest(const N& stiffness, const N& corner_mass, int pack) {
+    const N rate = stiffness / corner_mass;
+    critical_pack = where_less(largest_rate, rate, constant<N>(pack), critical_pack);
+    largest_rate = larger(rate, largest_rate);
   }
   void book(BlockSums& sums) const;
 };
@@ -109,12 +117,10 @@ class ElementBlock {
   /// Numbers per lane group in the history array (a multiple of kLanes).
   virtual int history_per_group() const = 0;
   virtual void initialise(std::span<double> history) const = 0;
-  /// Lumped mass of each corner of an element, kg, undeformed.
+  /// Lumped mass of each corner of an element, kg, undeformed, as its density has it.
   virtual double corner_mass(int element) const = 0;
   /// Lumped rotary inertia of each corner, kg m2; only with moments.
   virtual double corner_inertia(int /*element*/) const { return 0; }
-  /// Share of an element's mass that mass scaling added, kg.
-  virtual double added_mass(int /*element*/) const { return 0; }
   virtual double element_volume(int element) const = 0;
   virtual double density() const = 0;
 
@@ -125,14 +131,18 @@ class ElementBlock {
   virtual bool is_alive(std::span<const double> /*history*/, int /*element*/) const { return true; }
 
   /// Forces of groups [first, last). `history` belongs to the whole block, the corner arrays to
-  /// these groups: corner_slot(group - first, corner, lane) is the place of the x component, y and
-  /// z follow; moments likewise. See store_corner().
+  /// these groups: corner_slot(group - first, corner, lane) is the place of the x component, y, z
+  /// and the corner's stiffness follow; moments likewise. See store_corner().
   virtual void forces(const StepContext& step, std::span<double> history,
                       std::span<double> corner_forces, std::span<double> corner_moments, int first,
                       int last, BlockSums& sums) const = 0;
 
-  /// The stable step of one element, undeformed and unscaled, s.
-  virtual double initial_stable_step(int element) const = 0;
+  /// Bound k of an undeformed element's stiffness at each of its corners, N/m: a displacement u and
+  /// spin w of the corners costs at most sum k (u^2 + r^2 w^2) / 2, r^2 the corner's inertia over
+  /// its mass. 0: the element has none of its own.
+  virtual double initial_stiffness(int element) const = 0;
+  /// The stable step of one element alone, undeformed and unscaled, s.
+  double initial_stable_step(int element) const;
   virtual ElementSample sample(const StepContext& step, std::span<const double> history,
                                int element) const = 0;
 

@@ -1,4 +1,4 @@
-// Numerical controls of a block: hourglass resistance, bulk viscosity, mass scaling, precision.
+// Numerical controls of a block: hourglass resistance, bulk viscosity, precision.
 #pragma once
 
 namespace crosswalk::fe {
@@ -17,9 +17,6 @@ struct ElementControls {
   double hourglass_coefficient = 0.05;
   double quadratic_bulk = 1.5;  ///< [hallquist2006, 3.5]
   double linear_bulk = 0.06;
-  /// Elements whose own step is smaller get mass added until it is not; 0: no mass scaling. s,
-  /// before the safety factor of the solver.
-  double minimum_step = 0;
   Precision precision = Precision::Double;
 };
 

@@ -13,7 +13,7 @@ constexpr double kXi[8] = {-1, 1, 1, -1, -1, 1, 1, -1};
 constexpr double kEta[8] = {-1, -1, 1, 1, -1, -1, 1, 1};
 constexpr double kZeta[8] = {-1, -1, -1, -1, 1, 1, 1, 1};
 
-HexReference<double> reference_of(const Vec3 (&x)[8], double density) {
+HexReference<double> reference_of(const Vec3 (&x)[8]) {
   HexReference<double> ref;
   Vec3 B[8];
   hex8_volume_gradient(x, B);
@@ -23,7 +23,6 @@ HexReference<double> reference_of(const Vec3 (&x)[8], double density) {
   ref.volume = volume;
   ref.inverse_volume = 1.0 / volume;
   ref.length = std::cbrt(volume);
-  ref.density = density;
   for (int node = 0; node < 8; ++node)
     for (int i = 0; i < 3; ++i) ref.gradient[node][i] = B[node][i];
   const double* signs[4][2] = {{kEta, kZeta}, {kXi, kZeta}, {kXi, kEta}, {nullptr, nullptr}};
@@ -39,11 +38,6 @@ HexReference<double> reference_of(const Vec3 (&x)[8], double density) {
                              metric(0, 1), metric(1, 2), metric(2, 0)};
   std::copy_n(entries, 6, ref.metric);
   return ref;
-}
-
-double stable_step_squared(const HexReference<double>& ref, double bulk, double shear) {
-  const Tensor<double> identity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  return hex_stable_step_squared(ref, identity, 1.0, bulk, shear);
 }
 
 }  // namespace
@@ -79,33 +73,24 @@ double hex8_volume(const Vec3 (&x)[8]) {
 }
 
 template <class N>
-HexShapes<N> make_hex_shapes(const ElementBlock& block, const Mesh& mesh, double density,
-                             double bulk_modulus, double shear_modulus, double minimum_step) {
+HexShapes<N> make_hex_shapes(const ElementBlock& block, const Mesh& mesh) {
   HexShapes<N> shapes;
   shapes.packs.resize(block.group_count() / kGroupsPerPack<N>);
   shapes.volume.resize(block.element_count());
-  shapes.added_density.resize(block.element_count());
   for (int slot = 0; slot < block.group_count() * kLanes; ++slot) {
     Vec3 x[8];
     for (int corner = 0; corner < 8; ++corner)
       x[corner] = mesh.position[block.node(slot / kLanes, corner, slot % kLanes)];
-    HexReference<double> ref = reference_of(x, density);
+    const HexReference<double> ref = reference_of(x);
     CW_ASSERT(ref.volume > 0);  // the model builder refuses such elements with their place
-    const double squared = stable_step_squared(ref, bulk_modulus, shear_modulus);
-    ref.density *= std::max(minimum_step * minimum_step / squared, 1.0);
-    if (slot < block.element_count()) {
-      shapes.volume[slot] = ref.volume;
-      shapes.added_density[slot] = ref.density - density;
-    }
+    if (slot < block.element_count()) shapes.volume[slot] = ref.volume;
     set_lane(ref, slot % kWidth<N>, shapes.packs[slot / kWidth<N>]);
   }
   return shapes;
 }
 
-template HexShapes<Lanes> make_hex_shapes(const ElementBlock&, const Mesh&, double, double, double,
-                                          double);
-template HexShapes<SingleLanes> make_hex_shapes(const ElementBlock&, const Mesh&, double, double,
-                                                double, double);
+template HexShapes<Lanes> make_hex_shapes(const ElementBlock&, const Mesh&);
+template HexShapes<SingleLanes> make_hex_shapes(const ElementBlock&, const Mesh&);
 
 std::unique_ptr<ElementBlock> make_hex8_block(const Mesh& mesh, int part, std::vector<int> elements,
                                               const SolidLaw& law,

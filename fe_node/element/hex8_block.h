@@ -8,16 +8,14 @@
 
 namespace crosswalk::fe {
 
-/// Law-independent part: the undeformed shapes and added masses of a block.
+/// Law-independent part: the undeformed shapes of a block.
 template <class N>
 struct HexShapes {
   std::vector<HexReference<N>, Eigen::aligned_allocator<HexReference<N>>> packs;
-  std::vector<double> volume;         ///< m3 per element
-  std::vector<double> added_density;  ///< kg/m3 per element, by mass scaling
+  std::vector<double> volume;  ///< m3 per element
 };
 template <class N>
-HexShapes<N> make_hex_shapes(const ElementBlock& block, const Mesh& mesh, double density,
-                             double bulk_modulus, double shear_modulus, double minimum_step);
+HexShapes<N> make_hex_shapes(const ElementBlock& block, const Mesh& mesh);
 
 /// Finds the inverted element of a pack of which some lane of J is not positive.
 template <class N>
@@ -30,10 +28,11 @@ void find_inverted(const N& J, int first_element, int element_count, BlockSums& 
     }
 }
 
-/// Sums of one pack; padded lanes have mask 0.
+/// Sums of one pack; padded lanes have mask 0. `corner_mass`: kg.
 template <class N>
-void add_to_sums(const HexAnswer<N>& answer, const N& mask, const StepContext& step, int pack,
-                 int element_count, LaneSums<N>& lanes, BlockSums& sums) {
+void add_to_sums(const HexAnswer<N>& answer, const N& corner_mass, const N& mask,
+                 const StepContext& step, int pack, int element_count, LaneSums<N>& lanes,
+                 BlockSums& sums) {
   const N live = mask * answer.alive;
   lanes.failed += mask - live;
   lanes.internal += answer.energy * mask;
@@ -42,10 +41,7 @@ void add_to_sums(const HexAnswer<N>& answer, const N& mask, const StepContext& s
   lanes.viscous_dissipated += step.dt * (answer.viscous_power * live);
   const N J = where_less(constant<N>(0), live, answer.J, constant<N>(1));
   if (!all_positive(J)) find_inverted(J, pack * kWidth<N>, element_count, sums);
-  if (step.wants_stable_step)
-    lanes.limit_step(where_less(constant<N>(0), live, answer.stable_step_squared,
-                                constant<N>(std::numeric_limits<double>::infinity())),
-                     pack);
+  if (step.wants_stable_step) lanes.look_for_stiffest(live * answer.stiffness, corner_mass, pack);
 }
 
 template <class N>
@@ -53,7 +49,7 @@ void store_corner_forces(const HexAnswer<N>& answer, double* corner_forces) {
   constexpr std::size_t kCorner = std::size_t{kLanes} * kCornerStride;
   for (int node = 0; node < 8; ++node)
     store_corner(answer.force[node][0], answer.force[node][1], answer.force[node][2],
-                 corner_forces + node * kCorner, 8 * kCorner);
+                 answer.stiffness, corner_forces + node * kCorner, 8 * kCorner);
 }
 
 template <class N, class Law>
@@ -65,8 +61,7 @@ class Hex8Block final : public ElementBlock {
         law_(law),
         controls_(controls),
         kept_(law.history_size()),
-        shapes_(make_hex_shapes<N>(*this, mesh, law.density, law.bulk_modulus(),
-                                   law.shear_modulus(), controls.minimum_step)) {}
+        shapes_(make_hex_shapes<N>(*this, mesh)) {}
 
   int history_per_group() const override { return kept_.per_group(); }
 
@@ -75,10 +70,7 @@ class Hex8Block final : public ElementBlock {
   }
 
   double corner_mass(int element) const override {
-    return (law_.density + shapes_.added_density[element]) * element_volume(element) / 8.0;
-  }
-  double added_mass(int element) const override {
-    return shapes_.added_density[element] * element_volume(element);
+    return law_.density * element_volume(element) / 8.0;
   }
   double element_volume(int element) const override { return shapes_.volume[element]; }
   double density() const override { return law_.density; }
@@ -89,17 +81,17 @@ class Hex8Block final : public ElementBlock {
                          int first, int last, BlockSums& sums) const override {
     LaneSums<N> lanes;
     decltype(auto) law = ready_law(law_, step.dt);
-    lanes.step_squared = constant<N>(sums.stable_step * sums.stable_step);
     for (int group = first; group < last; group += kGroupsPerPack<N>) {
       const int pack = group / kGroupsPerPack<N>;
       if (pack + 1 < pack_count()) fetch_ahead(pack + 1);
       HexNodes<N> nodes;
       load_corners(step.nodes, group_nodes(group), nodes.x, nodes.v);
-      const HexAnswer<N> answer =
-          hex8_forces(shapes_.packs[pack], nodes, law, controls_, step.dt, kept_.of(history, pack),
-                      step.wants_stable_step ? smallest(lanes.step_squared) : 0.0);
+      const HexReference<N>& shape = shapes_.packs[pack];
+      const HexAnswer<N> answer = hex8_forces(shape, nodes, law, controls_, step.dt,
+                                              kept_.of(history, pack), step.wants_stable_step);
       store_corner_forces(answer, corner_forces.data() + corner_slot(group - first, 0, 0));
-      add_to_sums(answer, lane_mask<N>(pack), step, pack, element_count(), lanes, sums);
+      add_to_sums(answer, N((law_.density / 8.0) * shape.volume), lane_mask<N>(pack), step, pack,
+                  element_count(), lanes, sums);
     }
     lanes.book(sums);
   }
@@ -110,14 +102,10 @@ class Hex8Block final : public ElementBlock {
     return true;
   }
 
-  double initial_stable_step(int element) const override {
-    const HexReference<N>& ref = shapes_.packs[element / kWidth<N>];
-    Tensor<N> identity;
-    for (int k = 0; k < 9; ++k) identity(k / 3, k % 3) = constant<N>(k % 4 == 0 ? 1.0 : 0.0);
-    const N squared =
-        hex_stable_step_squared(ref, identity, constant<N>(1), constant<N>(law_.bulk_modulus()),
-                                constant<N>(law_.shear_modulus()));
-    return std::sqrt(squared[element % kWidth<N>]);
+  double initial_stiffness(int element) const override {
+    const N per_volume = hex_stiffness_at_rest(shapes_.packs[element / kWidth<N>].metric,
+                                               law_.bulk_modulus(), law_.shear_modulus());
+    return element_volume(element) * per_volume[element % kWidth<N>];
   }
 
   ElementSample sample(const StepContext& step, std::span<const double> history,

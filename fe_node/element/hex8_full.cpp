@@ -26,12 +26,11 @@ struct FullHexReference {
   N volume, inverse_volume, length;
 };
 
-/// What only the stable step asks for.
+/// What only the bound of the stiffness asks for.
 template <class N>
-struct StepReference {
+struct BoundReference {
   N metric[kPoints][6];  ///< sum of grad N_I grad N_I^T at each point, 1/m2
   N mean_metric[6];      ///< of the mean gradients, for the dilation
-  N density;             ///< with added mass, kg/m3
 };
 
 /// Gradients of the trilinear shape functions at a point and dxi/dX, with det dX/dxi.
@@ -59,7 +58,7 @@ void set_metric(const Vec3 (&b)[8], double (&metric)[6]) {
 }
 
 void set_references(const Vec3 (&x)[8], FullHexReference<double>& ref,
-                    StepReference<double>& step) {
+                    BoundReference<double>& bound) {
   const double a = 1 / std::sqrt(3.0);
   Vec3 mean[8];
   for (Vec3& g : mean) g.setZero();
@@ -73,48 +72,32 @@ void set_references(const Vec3 (&x)[8], FullHexReference<double>& ref,
     CW_ASSERT(point.volume > 0);  // the model builder refuses such elements with their place
     for (int c = 0; c < 8; ++c) mean[c] += point.volume * b[c];
     for (int k = 0; k < 9; ++k) point.half_local(k / 3, k % 3) = 0.5 * local_rate(k / 3, k % 3);
-    set_metric(b, step.metric[q]);
+    set_metric(b, bound.metric[q]);
     ref.volume += point.volume;
   }
   for (Vec3& g : mean) g /= ref.volume;
-  set_metric(mean, step.mean_metric);
+  set_metric(mean, bound.mean_metric);
   ref.inverse_volume = 1 / ref.volume;
   ref.length = std::cbrt(ref.volume);
 }
 
-/// Rayleigh's bound: omega^2 is at most the volume mean of the points' own bounds
-/// 8 J / rho0 (K tr g + 2 mu g_max), which the averaging of the dilation only lowers.
+/// The bounds of the points add up: the deviator's by the gradients at each, the volume's by the
+/// mean ones, as the averaging of the dilation only lowers it. N/m.
 template <class N>
-class StepBound {
- public:
-  StepBound(const FullHexReference<N>& ref, const StepReference<N>& step)
-      : ref_(ref), step_(step) {}
-  void add(int q, const Tensor<N>& F_inverse, const N& J, const N& bulk, const N& shear) {
-    HexReference<N> point;
-    for (int k = 0; k < 6; ++k) point.metric[k] = step_.metric[q][k];
-    point.density = step_.density;
-    // the deviator alone at the point; the volume by the mean gradients, below
-    const N shear_part = hex_stable_step_squared(point, F_inverse, J, N(shear * (2.0 / 3)), shear);
-    sum_ += ref_.points[q].volume / shear_part;
-    HexReference<N> mean = point;
-    for (int k = 0; k < 6; ++k) mean.metric[k] = step_.mean_metric[k];
-    const N volume_part = hex_stable_step_squared(mean, F_inverse, J, bulk, constant<N>(0));
-    sum_ += ref_.points[q].volume / volume_part;
-  }
-  N step_squared() const { return ref_.volume / sum_; }
+N point_stiffness(const FullHexReference<N>& ref, const BoundReference<N>& bound, int q,
+                  const Tensor<N>& F_inverse, const N& J, const N& bulk, const N& shear) {
+  const N of_shear = hex_stiffness(bound.metric[q], F_inverse, J, N(shear * (2.0 / 3)), shear);
+  const N of_volume = hex_stiffness(bound.mean_metric, F_inverse, J, bulk, constant<N>(0));
+  return ref.points[q].volume * (of_shear + of_volume);
+}
 
- private:
-  const FullHexReference<N>& ref_;
-  const StepReference<N>& step_;
-  N sum_ = constant<N>(0);
-};
-
-double initial_step(const FullHexReference<double>& ref, const StepReference<double>& step,
-                    double bulk, double shear) {
-  StepBound<double> bound(ref, step);
+double stiffness_at_rest(const FullHexReference<double>& ref, const BoundReference<double>& bound,
+                         double bulk, double shear) {
+  const Tensor<double> identity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  double sum = 0;
   for (int q = 0; q < kPoints; ++q)
-    bound.add(q, Tensor<double>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, 1.0, bulk, shear);
-  return std::sqrt(bound.step_squared());
+    sum += point_stiffness(ref, bound, q, identity, 1.0, bulk, shear);
+  return sum;
 }
 
 template <class N, class Law>
@@ -139,10 +122,7 @@ class FullHexBlock final : public ElementBlock {
     }
   }
   double corner_mass(int element) const override {
-    return 0.125 * (law_.density + added_density_[element]) * element_volume(element);
-  }
-  double added_mass(int element) const override {
-    return added_density_[element] * element_volume(element);
+    return 0.125 * law_.density * element_volume(element);
   }
   double element_volume(int element) const override { return volume_[element]; }
   double density() const override { return law_.density; }
@@ -153,7 +133,7 @@ class FullHexBlock final : public ElementBlock {
   CW_FLATTEN void forces(const StepContext& step, std::span<double> history,
                          std::span<double> corner_forces, std::span<double> corner_moments,
                          int first, int last, BlockSums& sums) const override;
-  double initial_stable_step(int element) const override { return initial_step_[element]; }
+  double initial_stiffness(int element) const override { return stiffness_[element]; }
   ElementSample sample(const StepContext& step, std::span<const double> history,
                        int element) const override;
 
@@ -168,34 +148,28 @@ class FullHexBlock final : public ElementBlock {
   ElementControls controls_;
   PackHistory<N> kept_;
   std::vector<FullHexReference<N>, Eigen::aligned_allocator<FullHexReference<N>>> packs_;
-  std::vector<StepReference<N>, Eigen::aligned_allocator<StepReference<N>>> steps_;
-  std::vector<double> volume_, added_density_, initial_step_;
+  std::vector<BoundReference<N>, Eigen::aligned_allocator<BoundReference<N>>> bounds_;
+  std::vector<double> volume_, stiffness_;
 };
 
 template <class N, class Law>
 void FullHexBlock<N, Law>::set_packs(const Mesh& mesh) {
   packs_.resize(pack_count());
-  steps_.resize(pack_count());
+  bounds_.resize(pack_count());
   volume_.assign(element_count(), 0.0);
-  added_density_.assign(element_count(), 0.0);
-  initial_step_.assign(element_count(), 0.0);
+  stiffness_.assign(element_count(), 0.0);
   for (int slot = 0; slot < group_count() * kLanes; ++slot) {
     Vec3 x[8];
     for (int c = 0; c < 8; ++c) x[c] = mesh.position[node(slot / kLanes, c, slot % kLanes)];
     FullHexReference<double> ref;
-    StepReference<double> step;
-    set_references(x, ref, step);
-    step.density = law_.density;
-    const double own = initial_step(ref, step, law_.bulk_modulus(), law_.shear_modulus());
-    const double scaling = std::max(controls_.minimum_step / own, 1.0);
-    step.density *= scaling * scaling;
+    BoundReference<double> bound;
+    set_references(x, ref, bound);
     if (slot < element_count()) {
       volume_[slot] = ref.volume;
-      added_density_[slot] = step.density - law_.density;
-      initial_step_[slot] = own * scaling;
+      stiffness_[slot] = stiffness_at_rest(ref, bound, law_.bulk_modulus(), law_.shear_modulus());
     }
     set_lane(ref, slot % kWidth<N>, packs_[slot / kWidth<N>]);
-    set_lane(step, slot % kWidth<N>, steps_[slot / kWidth<N>]);
+    set_lane(bound, slot % kWidth<N>, bounds_[slot / kWidth<N>]);
   }
 }
 
@@ -232,8 +206,7 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
 
     Symmetric<N> tau[kPoints];
     N mean_p = constant<N>(0), alive = h[kPoints], bulk = constant<N>(0), shear = constant<N>(0);
-    answer.energy = constant<N>(0);
-    StepBound<N> bound(ref, steps_[pack]);
+    answer.energy = answer.stiffness = constant<N>(0);
     for (int q = 0; q < kPoints; ++q) {
       const N scale = dilation_scale(mean_J, J[q]);
       const SolidStep<N> bar = dilated_step(F[q], F_rate[q], J[q], scale, h[q], step.dt);
@@ -248,7 +221,8 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
       bulk = larger(bulk, material.bulk_modulus);
       shear = larger(shear, material.shear_modulus);
       if (step.wants_stable_step)
-        bound.add(q, F_inverse[q], J[q], material.bulk_modulus, material.shear_modulus);
+        answer.stiffness += point_stiffness(ref, bounds_[pack], q, F_inverse[q], J[q],
+                                            material.bulk_modulus, material.shear_modulus);
     }
     mean_p *= ref.inverse_volume / mean_J;
     h[kPoints] = alive;
@@ -277,12 +251,10 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
     answer.alive = alive;
     answer.hourglass_stored = answer.hourglass_power = constant<N>(0);
     answer.viscous_power = q_mean * compression / ref.length * ref.volume;
-    const N ratio =
-        where_less(constant<N>(0), compression, N(viscous_speed / wave_speed), constant<N>(0));
-    const N shorten = square_root(N(1.0 + ratio * ratio)) - ratio;
-    answer.stable_step_squared = bound.step_squared() * shorten * shorten;
+    answer.stiffness *= alive * stiffening_by_viscosity(compression, viscous_speed, wave_speed);
     store_corner_forces(answer, corner_forces.data() + corner_slot(group - first, 0, 0));
-    add_to_sums(answer, lane_mask<N>(pack), step, pack, element_count(), lanes, sums);
+    add_to_sums(answer, N((0.125 * law_.density) * ref.volume), lane_mask<N>(pack), step, pack,
+                element_count(), lanes, sums);
   }
   lanes.book(sums);
 }

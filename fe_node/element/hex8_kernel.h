@@ -1,8 +1,6 @@
 // The arithmetic of the one-point hexahedron on a number type N (Lanes or double); see hex8.h.
 #pragma once
 
-#include <limits>
-
 #include "fe_node/element/element_controls.h"
 #include "fe_node/material/material.h"
 
@@ -16,7 +14,6 @@ struct HexReference {
   N inverse_volume;
   N hourglass[4][3];  ///< h_a . X, m
   N metric[6];        ///< sum_I b_I b_I^T with b = B / V (xx yy zz xy yz zx), 1/m2
-  N density;          ///< with added mass, kg/m3; only for the stable step
   N length;           ///< cube root of the volume, m
 };
 
@@ -29,11 +26,11 @@ struct HexNodes {
 template <class N>
 struct HexAnswer {
   N force[8][3];
-  N energy;               ///< J
-  N hourglass_stored;     ///< J
-  N hourglass_power;      ///< W, dissipated
-  N viscous_power;        ///< W
-  N stable_step_squared;  ///< s2
+  N energy;            ///< J
+  N hourglass_stored;  ///< J
+  N hourglass_power;   ///< W, dissipated
+  N viscous_power;     ///< W
+  N stiffness;         ///< bound at each corner, N/m; 0 where none is wanted
   N J;
   N alive;
 };
@@ -65,36 +62,25 @@ void mode_loads(const N (&t)[4], N (&load)[8]) {
   load[7] = r - m;
 }
 
-/// Largest eigenvalue of a symmetric 3x3 matrix from above: exact for three equal ones, at most
-/// mean + 2 sqrt(J2/3).
+/// Largest eigenvalue of a symmetric 3x3 matrix from above: mean + 2 sqrt(J2/3), exact for three
+/// equal ones, tightened by two Newton steps of the characteristic polynomial, which stay above the
+/// root.
 template <class N>
-struct EigenvalueBound {
-  explicit EigenvalueBound(const Symmetric<N>& metric)
-      : g(metric), mean(trace(metric) * (1.0 / 3.0)) {
-    const N a = g.xx - mean, b = g.yy - mean, c = g.zz - mean;
-    const N off = g.xy * g.xy + g.yz * g.yz + g.zx * g.zx;
-    third_j2 = (a * a + b * b + c * c + 2.0 * off) * (1.0 / 6.0);
-    deviator = 2.0 * square_root(third_j2);
+N largest_eigenvalue(const Symmetric<N>& g) {
+  const N mean = trace(g) * (1.0 / 3.0);
+  const N a = g.xx - mean, b = g.yy - mean, c = g.zz - mean;
+  const N off = g.xy * g.xy + g.yz * g.yz + g.zx * g.zx;
+  const N third_j2 = (a * a + b * b + c * c + 2.0 * off) * (1.0 / 6.0);
+  const N det =
+      a * (b * c - g.yz * g.yz) - g.xy * (g.xy * c - g.yz * g.zx) + g.zx * (g.xy * g.yz - b * g.zx);
+  // y^3 - 3 p2 y - det = 0 for the deviator's eigenvalue y, p2 = third_j2; y <= 2 sqrt(p2).
+  N y = 2.0 * square_root(third_j2);
+  for (int i = 0; i < 2; ++i) {
+    const N slope = 3.0 * (y * y - third_j2) + kTiny<N>;
+    y -= (y * (y * y - 3.0 * third_j2) - det) / slope;
   }
-  N coarse() const { return mean + deviator; }
-  /// Tightened by two Newton steps of the characteristic polynomial, which stay above the root.
-  N fine() const {
-    const N a = g.xx - mean, b = g.yy - mean, c = g.zz - mean;
-    const N det = a * (b * c - g.yz * g.yz) - g.xy * (g.xy * c - g.yz * g.zx) +
-                  g.zx * (g.xy * g.yz - b * g.zx);
-    // y^3 - 3 p2 y - det = 0 for the deviator's eigenvalue y, p2 = third_j2; y <= 2 sqrt(p2).
-    N y = deviator;
-    for (int i = 0; i < 2; ++i) {
-      const N slope = 3.0 * (y * y - third_j2) + kTiny<N>;
-      y -= (y * (y * y - 3.0 * third_j2) - det) / slope;
-    }
-    return mean + y;
-  }
-
- private:
-  Symmetric<N> g;
-  N mean, third_j2, deviator;
-};
+  return mean + y;
+}
 
 /// sum u_I (grad N_I)^T: F of positions, its rate of velocities. One after the other: nine sums fit
 /// the registers, eighteen do not.
@@ -112,38 +98,44 @@ Tensor<N> gradient_of(const HexReference<N>& ref, const N (&u)[8][3]) {
   return out;
 }
 
-/// omega^2 <= 8 J / rho0 (lambda tr g + 2 mu g_max), g = F^-T metric F^-1: the element eigenvalue
-/// bound of [flanagan1984] with the shear part bounded by the largest direction. dt^2 = 4 /
-/// omega^2. Steps that even a coarse bound puts above `least_squared` need not be exact: they may
-/// come back as anything between.
+/// Bound of an element's stiffness per undeformed volume: u^T k u <= V hex_stiffness sum |u_I|^2
+/// with J (lambda tr g + 2 mu g_max), g = F^-T metric F^-1: the element eigenvalue bound of
+/// [flanagan1984] with the shear part bounded by the largest direction. Pa/m2.
 template <class N>
-N hex_stable_step_squared(const HexReference<N>& ref, const Tensor<N>& Fi, const N& J,
-                          const N& bulk_modulus, const N& shear_modulus, const N& least_squared) {
+N hex_stiffness(const N (&metric)[6], const Tensor<N>& Fi, const N& J, const N& bulk_modulus,
+                const N& shear_modulus) {
   N t[3][3];  // metric F^-1
-  const N* m = ref.metric;
   for (int j = 0; j < 3; ++j) {
-    t[0][j] = m[0] * Fi(0, j) + m[3] * Fi(1, j) + m[5] * Fi(2, j);
-    t[1][j] = m[3] * Fi(0, j) + m[1] * Fi(1, j) + m[4] * Fi(2, j);
-    t[2][j] = m[5] * Fi(0, j) + m[4] * Fi(1, j) + m[2] * Fi(2, j);
+    t[0][j] = metric[0] * Fi(0, j) + metric[3] * Fi(1, j) + metric[5] * Fi(2, j);
+    t[1][j] = metric[3] * Fi(0, j) + metric[1] * Fi(1, j) + metric[4] * Fi(2, j);
+    t[2][j] = metric[5] * Fi(0, j) + metric[4] * Fi(1, j) + metric[2] * Fi(2, j);
   }
   auto entry = [&](int i, int j) -> N {
     return Fi(0, i) * t[0][j] + Fi(1, i) * t[1][j] + Fi(2, i) * t[2][j];
   };
   const Symmetric<N> g{entry(0, 0), entry(1, 1), entry(2, 2),
                        entry(0, 1), entry(1, 2), entry(2, 0)};
-  const EigenvalueBound<N> largest(g);
   const N lambda = larger(N(bulk_modulus - 2.0 / 3.0 * shear_modulus), constant<N>(0));
-  const N of_trace = lambda * trace(g), two_mu = 2.0 * shear_modulus;
-  const N coarse = 0.5 * ref.density / (J * (of_trace + two_mu * largest.coarse()));
-  if (all_positive(N(coarse - least_squared))) return coarse;
-  return 0.5 * ref.density / (J * (of_trace + two_mu * largest.fine()));
+  return J * (lambda * trace(g) + 2.0 * shear_modulus * largest_eigenvalue(g));
 }
 
+/// The same of an undeformed element.
 template <class N>
-N hex_stable_step_squared(const HexReference<N>& ref, const Tensor<N>& Fi, const N& J,
-                          const N& bulk_modulus, const N& shear_modulus) {
-  return hex_stable_step_squared(ref, Fi, J, bulk_modulus, shear_modulus,
-                                 constant<N>(std::numeric_limits<double>::infinity()));
+N hex_stiffness_at_rest(const N (&metric)[6], double bulk_modulus, double shear_modulus) {
+  Tensor<N> identity;
+  for (int k = 0; k < 9; ++k) identity(k / 3, k % 3) = constant<N>(k % 4 == 0 ? 1.0 : 0.0);
+  return hex_stiffness(metric, identity, constant<N>(1), constant<N>(bulk_modulus),
+                       constant<N>(shear_modulus));
+}
+
+/// What damping with the ratio s = (Q1 e l + Q2 c) / c multiplies a stiffness by: the stable step
+/// shrinks by sqrt(1 + s^2) - s [hallquist2006, 22.1]. Viscosity acts in compression only.
+template <class N>
+N stiffening_by_viscosity(const N& compression, const N& viscous_speed, const N& wave_speed) {
+  const N ratio =
+      where_less(constant<N>(0), compression, N(viscous_speed / wave_speed), constant<N>(0));
+  const N shorten = square_root(N(1.0 + ratio * ratio)) - ratio;
+  return 1.0 / (shorten * shorten);
 }
 
 /// An element that has failed counts as undeformed and at rest: its nodes go on without it and may
@@ -159,11 +151,10 @@ void rest_where_failed(const N& alive, Tensor<N>& F, Tensor<N>& F_rate) {
     }
 }
 
-/// `least_squared`: the smallest stable step found so far, squared; see above. 0: none is wanted.
 template <class N, class Law>
 HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, const Law& law,
                          const ElementControls& controls, double dt, N* history,
-                         double least_squared) {
+                         bool wants_stiffness) {
   SolidStep<N> step;
   step.dt = dt;
   step.F = gradient_of(ref, nodes.x);
@@ -191,18 +182,12 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
     for (int j = 0; j < 3; ++j) material.P(i, j) -= q * step.F_inverse(j, i);
   answer.viscous_power = q * compression * ref.length * ref.length;  // V / l = l^2
 
-  answer.stable_step_squared = constant<N>(std::numeric_limits<double>::infinity());
-  if (least_squared > 0) {
-    // Damping with ratio s = (Q1 e l + Q2 c) / c shortens the step by sqrt(1 + s^2) - s.
-    const N ratio =
-        where_less(constant<N>(0), compression, N(viscous_speed / wave_speed), constant<N>(0));
-    const N shorten = square_root(N(1.0 + ratio * ratio)) - ratio;
-    const N shorten_squared = shorten * shorten;
-    answer.stable_step_squared =
-        hex_stable_step_squared(ref, step.F_inverse, step.J, material.bulk_modulus,
-                                material.shear_modulus, N(least_squared / shorten_squared)) *
-        shorten_squared;
-  }
+  answer.stiffness = constant<N>(0);
+  if (wants_stiffness)
+    answer.stiffness = ref.volume *
+                       hex_stiffness(ref.metric, step.F_inverse, step.J, material.bulk_modulus,
+                                     material.shear_modulus) *
+                       stiffening_by_viscosity(compression, viscous_speed, wave_speed);
 
   // Hourglass control; its reaction on F is folded into the stress (see hex8.h). Component by
   // component, so that the loads of the modes stay in registers.
@@ -241,9 +226,11 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
   answer.hourglass_power = is_viscous ? resisted : constant<N>(0);
   answer.hourglass_stored = is_viscous ? constant<N>(0) : N(0.5 * resisted);
 
-  if constexpr (requires { Law::kAlive; })
+  if constexpr (requires { Law::kAlive; }) {
+    answer.stiffness *= answer.alive;
     for (auto& corner : answer.force)
       for (N& f : corner) f *= answer.alive;
+  }
   return answer;
 }
 

@@ -14,8 +14,10 @@
 
 namespace crosswalk::fe {
 
-/// Doubles per element corner in a corner force array: x, y, z and padding.
+/// Doubles per element corner in a corner force array: x, y, z and the corner's stiffness.
 inline constexpr int kCornerStride = 4;
+/// Place of the stiffness among them.
+inline constexpr int kCornerStiffness = 3;
 
 /// The first three numbers of four or eight rows of doubles, as lanes. Rows of kWidth doubles may
 /// be read: four, or three where nothing may follow the third.
@@ -173,10 +175,11 @@ void load_corner_vectors(std::span<const Vec3> vectors, const int* index,
     for (int i = 0; i < 3; ++i) a[corner][i] = joined(first[corner][i], second[corner][i]);
 }
 
-/// Writes one corner of the elements in one register. `to`: the corner's first double in their
-/// first group, aligned like Lanes; `group_stride`: doubles from there to the next group's.
-inline void store_corner(const Lanes& x, const Lanes& y, const Lanes& z, double* to,
-                         std::size_t /*group_stride*/) {
+/// Writes one corner of the elements in one register: a vector and the stiffness that goes with it.
+/// `to`: the corner's first double in their first group, aligned like Lanes; `group_stride`:
+/// doubles from there to the next group's.
+inline void store_corner(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& stiffness,
+                         double* to, std::size_t /*group_stride*/) {
 #ifdef __AVX__
   for (int half = 0; half < kLanes / 4; ++half) {
 #ifdef __AVX512F__
@@ -186,10 +189,10 @@ inline void store_corner(const Lanes& x, const Lanes& y, const Lanes& z, double*
 #else
     const auto part = [](const Lanes& a) -> __m256d { return a.v; };
 #endif
-    const __m256d zero = _mm256_setzero_pd();
     const __m256d xy0 = _mm256_unpacklo_pd(part(x), part(y)),
                   xy1 = _mm256_unpackhi_pd(part(x), part(y)),
-                  z0 = _mm256_unpacklo_pd(part(z), zero), z1 = _mm256_unpackhi_pd(part(z), zero);
+                  z0 = _mm256_unpacklo_pd(part(z), part(stiffness)),
+                  z1 = _mm256_unpackhi_pd(part(z), part(stiffness));
     double* row = to + 4 * half * kCornerStride;
     _mm256_store_pd(row, _mm256_permute2f128_pd(xy0, z0, 0x20));
     _mm256_store_pd(row + kCornerStride, _mm256_permute2f128_pd(xy1, z1, 0x20));
@@ -201,13 +204,13 @@ inline void store_corner(const Lanes& x, const Lanes& y, const Lanes& z, double*
     to[lane * kCornerStride] = x[lane];
     to[lane * kCornerStride + 1] = y[lane];
     to[lane * kCornerStride + 2] = z[lane];
-    to[lane * kCornerStride + 3] = 0;
+    to[lane * kCornerStride + kCornerStiffness] = stiffness[lane];
   }
 #endif
 }
 
 inline void store_corner(const SingleLanes& x, const SingleLanes& y, const SingleLanes& z,
-                         double* to, std::size_t group_stride) {
+                         const SingleLanes& stiffness, double* to, std::size_t group_stride) {
 #ifdef __AVX__
   for (int eight = 0; eight < kWidth<SingleLanes> / 8; ++eight) {
 #ifdef __AVX512F__
@@ -219,10 +222,10 @@ inline void store_corner(const SingleLanes& x, const SingleLanes& y, const Singl
 #else
     const auto part = [](const SingleLanes& a) -> __m256 { return a.v; };
 #endif
-    const __m256 zero = _mm256_setzero_ps();
     const __m256 xy01 = _mm256_unpacklo_ps(part(x), part(y)),
                  xy23 = _mm256_unpackhi_ps(part(x), part(y)),
-                 z01 = _mm256_unpacklo_ps(part(z), zero), z23 = _mm256_unpackhi_ps(part(z), zero);
+                 z01 = _mm256_unpacklo_ps(part(z), part(stiffness)),
+                 z23 = _mm256_unpackhi_ps(part(z), part(stiffness));
     const __m256 rows[4] = {// of lanes k and k + 4
                             _mm256_shuffle_ps(xy01, z01, 0x44), _mm256_shuffle_ps(xy01, z01, 0xee),
                             _mm256_shuffle_ps(xy23, z23, 0x44), _mm256_shuffle_ps(xy23, z23, 0xee)};
@@ -240,7 +243,7 @@ inline void store_corner(const SingleLanes& x, const SingleLanes& y, const Singl
     row[0] = x[lane];
     row[1] = y[lane];
     row[2] = z[lane];
-    row[3] = 0;
+    row[kCornerStiffness] = stiffness[lane];
   }
 #endif
 }

@@ -34,7 +34,8 @@ class LineBlock final : public ElementBlock {
       for (int e : strand) sum += rest_length_[e];
       strand_rest_.push_back(sum);
     }
-    scale_masses(p);
+    length_density_ = p.length_density;
+    for (double length : initial_length_) corner_mass_.push_back(0.5 * length_density_ * length);
   }
 
   int history_per_group() const override { return kSlots * kLanes; }
@@ -44,7 +45,6 @@ class LineBlock final : public ElementBlock {
   }
 
   double corner_mass(int element) const override { return corner_mass_[element]; }
-  double added_mass(int element) const override { return added_mass_[element]; }
   double element_volume(int element) const override { return initial_length_[element]; }
   /// Per length for a line, kg/m.
   double density() const override { return length_density_; }
@@ -65,28 +65,29 @@ class LineBlock final : public ElementBlock {
       sums.internal += work;
 
       const Vec3 pull = length > 0 ? Vec3(answer.force / length * span) : Vec3::Zero();
-      for (int corner = 0; corner < 2; ++corner)
-        Eigen::Map<Vec3>{corner_forces.data() +
-                         corner_slot(e / kLanes - first, corner, e % kLanes)} =
-            corner == 0 ? pull : Vec3(-pull);
+      const double stable = stable_step(step, e, answer);
+      for (int corner = 0; corner < 2; ++corner) {
+        const std::size_t at = corner_slot(e / kLanes - first, corner, e % kLanes);
+        const double inverse_mass = step.nodes[end(e, corner)].inverse_mass;
+        Eigen::Map<Vec3>{corner_forces.data() + at} = corner == 0 ? pull : Vec3(-pull);
+        corner_forces[at + kCornerStiffness] =
+            inverse_mass > 0 ? 4 / (inverse_mass * stable * stable) : 0.0;
+      }
       if (!(length >= 0) || !std::isfinite(answer.force)) {
         if (sums.inverted_element < 0) sums.inverted_element = e;
         sums.inverted_jacobian = length;
       }
-      const double stable = stable_step(step, e, answer);
-      if (stable < sums.stable_step) {
-        sums.stable_step = stable;
-        sums.critical_element = e;
-      }
+      sums.limit(e, stable);
     }
   }
 
   /// Only a truss is bounded by its own mass; what springs and muscles need depends on the nodes
   /// they pull at, and is found from those at every step.
-  double initial_stable_step(int element) const override {
-    if (!std::holds_alternative<ElasticLine>(law_)) return std::numeric_limits<double>::infinity();
+  double initial_stiffness(int element) const override {
+    if (!std::holds_alternative<ElasticLine>(law_) || !(corner_mass_[element] > 0)) return 0;
     const LineAnswer answer = answer_of(law_, {strand_rest_[strand_of_[element]], 0.0, 0.0, 0.0});
-    return step_bound(answer, corner_mass_[element] > 0 ? 2.0 / corner_mass_[element] : 0.0);
+    const double step = step_bound(answer, 2.0 / corner_mass_[element]);
+    return 4 * corner_mass_[element] / (step * step);
   }
 
   ElementSample sample(const StepContext& step, std::span<const double> history,
@@ -134,32 +135,15 @@ class LineBlock final : public ElementBlock {
     if (omega_squared + half_decay <= 0) return std::numeric_limits<double>::infinity();
     return 2 / (std::sqrt(omega_squared + half_decay * half_decay) + half_decay);
   }
+  /// Of the line alone between its nodes' whole masses; a constrained node counts as immovable.
   double stable_step(const StepContext& step, int e, const LineAnswer& answer) const {
-    // Nodal masses include neighbours; a constrained node counts as immovable. A truss of its own
-    // mass is bounded by its own lumped masses, whichever is lighter.
     return step_bound(answer,
                       step.nodes[end(e, 0)].inverse_mass + step.nodes[end(e, 1)].inverse_mass);
   }
 
-  void scale_masses(const LineProperties& p) {
-    length_density_ = p.length_density;
-    for (int e = 0; e < element_count(); ++e) {
-      corner_mass_.push_back(0.5 * p.length_density * initial_length_[e]);
-      added_mass_.push_back(0);
-    }
-    if (p.minimum_step <= 0 || p.length_density <= 0) return;
-    for (int e = 0; e < element_count(); ++e) {
-      const double step = initial_stable_step(e);
-      if (!(step < p.minimum_step)) continue;
-      const double factor = std::pow(p.minimum_step / step, 2);
-      added_mass_[e] = 2 * corner_mass_[e] * (factor - 1);
-      corner_mass_[e] *= factor;
-    }
-  }
-
   LineLaw law_;
   double length_density_ = 0;
-  std::vector<double> initial_length_, rest_length_, corner_mass_, added_mass_;
+  std::vector<double> initial_length_, rest_length_, corner_mass_;
   std::vector<std::vector<int>> strands_;
   std::vector<double> strand_rest_;
   std::vector<int> strand_of_;

@@ -18,7 +18,6 @@ struct LineProperties {
   std::vector<std::vector<int>> strands = {};
   /// Added to each element's undeformed length to give its rest length, m; empty: nothing.
   std::vector<double> slack = {};
-  double minimum_step = 0;  ///< s; elements with mass get more until they need no smaller step
 };
 
 std::unique_ptr<ElementBlock> make_line_block(const Mesh& mesh, int part, std::vector<int> elements,

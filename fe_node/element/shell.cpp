@@ -71,17 +71,18 @@ class ShellBlock final : public ElementBlock {
   bool has_moments() const override { return matter_.is_bending(); }
   int history_per_group() const override { return kept_.per_group(); }
   void initialise(std::span<double> history) const override;
-  double corner_mass(int element) const override { return mass_[element] / kCorners; }
+  double corner_mass(int element) const override {
+    return matter_.density * element_volume(element) / kCorners;
+  }
   double corner_inertia(int element) const override {
     return corner_mass(element) * gyration_[element];
   }
-  double added_mass(int element) const override { return added_[element]; }
   double element_volume(int element) const override { return area_[element] * thickness_[element]; }
   double density() const override { return matter_.density; }
   void forces(const StepContext& step, std::span<double> history, std::span<double> corner_forces,
               std::span<double> corner_moments, int first, int last,
               BlockSums& sums) const override;
-  double initial_stable_step(int element) const override { return step_[element]; }
+  double initial_stiffness(int element) const override { return stiffness_[element]; }
   bool is_alive(std::span<const double> history, int element) const override {
     return kept_.of(history, element / kWidth<N>)[kAlive][element % kWidth<N>] > 0.5;
   }
@@ -89,7 +90,7 @@ class ShellBlock final : public ElementBlock {
                        int element) const override;
 
  private:
-  /// Of a pack: mass with what scaling added, kg, and squared gyration, m2.
+  /// Of a pack: mass, kg, and squared gyration, m2.
   struct Weight {
     N mass, gyration;
   };
@@ -105,17 +106,15 @@ class ShellBlock final : public ElementBlock {
   Element element_;
   PackHistory<N> kept_;
   std::vector<Weight, Eigen::aligned_allocator<Weight>> weights_;
-  /// Per element, the padding's included: m, m2, kg with what scaling added, m2, s, kg.
-  std::vector<double> thickness_, area_, mass_, gyration_, step_, added_;
+  /// Per element, the padding's included: m, m2, m2, N/m.
+  std::vector<double> thickness_, area_, gyration_, stiffness_;
 };
 
-/// dt^2 = 4 / omega^2
+/// Bound of the stiffness at each corner, N/m; times the squared gyration, of that against spins.
 template <class N, class Element>
-N stable_step_squared(const Element& element, const ShellShape<N, Element::kCorners>& shape,
-                      const N& thickness, const N& mass, const N& gyration) {
-  return 4.0 * mass /
-         (Element::kCorners * shape.area * thickness *
-          element.stiffness(shape, thickness, gyration));
+N corner_stiffness(const Element& element, const ShellShape<N, Element::kCorners>& shape,
+                   const N& thickness, const N& gyration) {
+  return shape.area * thickness * element.stiffness(shape, thickness, gyration);
 }
 
 template <class N, template <class> class ElementOf>
@@ -134,8 +133,7 @@ ShellBlock<N, ElementOf>::ShellBlock(const Mesh& mesh, ElementKind kind, int par
     std::copy(thickness.begin(), thickness.end(), thickness_.begin());
     std::fill(thickness_.begin() + element_count(), thickness_.end(), thickness.back());
   }
-  for (std::vector<double>* values : {&area_, &mass_, &gyration_, &step_, &added_})
-    values->resize(padded);
+  for (std::vector<double>* values : {&area_, &gyration_, &stiffness_}) values->resize(padded);
   weights_.resize(pack_count());
   for (int slot = 0; slot < group_count() * kLanes; ++slot) {
     Lanes3<double> x[kCorners];
@@ -151,18 +149,12 @@ template <class N, template <class> class ElementOf>
 void ShellBlock<N, ElementOf>::set_element(int element, const Lanes3<double> (&x)[kCorners]) {
   const ShellShape<double, kCorners> shape = shell_shape(x);
   const double t = thickness_[element];
-  const double mass = matter_.density * shape.area * t, gyration = (shape.area + t * t) / 12;
-  const double step =
-      std::sqrt(stable_step_squared(ElementOf<double>(matter_), shape, t, mass, gyration));
-  const double scaling = std::max(1.0, matter_.controls.minimum_step / step);
   area_[element] = shape.area;
-  added_[element] = mass * (scaling * scaling - 1);
-  mass_[element] = mass + added_[element];
-  gyration_[element] = gyration;
-  step_[element] = step * scaling;
+  gyration_[element] = (shape.area + t * t) / 12;
+  stiffness_[element] = corner_stiffness(ElementOf<double>(matter_), shape, t, gyration_[element]);
   Weight& weight = weights_[element / kWidth<N>];
-  weight.mass.set(element % kWidth<N>, mass_[element]);
-  weight.gyration.set(element % kWidth<N>, gyration);
+  weight.mass.set(element % kWidth<N>, matter_.density * shape.area * t);
+  weight.gyration.set(element % kWidth<N>, gyration_[element]);
 }
 
 template <class N, template <class> class ElementOf>
@@ -214,8 +206,8 @@ auto ShellBlock<N, ElementOf>::motion(const ShellGeometry<N, kCorners>& g, doubl
 }
 
 template <int kCorners, class N>
-void store(const Lanes3<N>& a, const N& factor, double* to) {
-  store_corner(a.x * factor, a.y * factor, a.z * factor, to,
+void store(const Lanes3<N>& a, const N& factor, const N& stiffness, double* to) {
+  store_corner(a.x * factor, a.y * factor, a.z * factor, stiffness, to,
                std::size_t{kCorners} * kLanes * kCornerStride);
 }
 
@@ -240,12 +232,16 @@ CW_FLATTEN void ShellBlock<N, ElementOf>::forces(const StepContext& step, std::s
     h[kAlive] = smaller(h[kAlive], answer.alive);
     if (matter_.section.thinning == ShellThinning::FollowsStrain)
       h[kThickness] *= 1.0 + answer.thinning;
+    const N& gyration = weights_[pack].gyration;
+    N stiffness = constant<N>(0);
+    if (step.wants_stable_step)
+      stiffness = h[kAlive] * corner_stiffness(element_, m.end, h[kThickness], gyration);
     for (int i = 0; i < kCorners; ++i) {
       const std::size_t slot = corner_slot(group - first, i, 0);
-      store<kCorners>(m.end.frame.to_world(answer.force[i]), h[kAlive],
+      store<kCorners>(m.end.frame.to_world(answer.force[i]), h[kAlive], stiffness,
                       corner_forces.data() + slot);
       if (is_bending)
-        store<kCorners>(m.end.frame.to_world(answer.moment[i]), h[kAlive],
+        store<kCorners>(m.end.frame.to_world(answer.moment[i]), h[kAlive], N(stiffness * gyration),
                         corner_moments.data() + slot);
     }
 
@@ -259,11 +255,7 @@ CW_FLATTEN void ShellBlock<N, ElementOf>::forces(const StepContext& step, std::s
     const N area = where_less(half_alive, live, element_.least_area(m.end), constant<N>(1));
     if (!all_positive(area)) find_inverted(area, pack, sums);
     if (step.wants_stable_step)
-      lanes.limit_step(
-          where_less(
-              live, half_alive, constant<N>(std::numeric_limits<double>::infinity()),
-              stable_step_squared(element_, m.end, h[kThickness], m.mass, weights_[pack].gyration)),
-          pack);
+      lanes.look_for_stiffest(live * stiffness, N(m.mass * (1.0 / kCorners)), pack);
   }
   lanes.book(sums);
 }

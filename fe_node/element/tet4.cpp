@@ -14,7 +14,6 @@ struct TetReference {
   Lanes gradient[4][3];  ///< grad N_I, 1/m
   Lanes volume;
   Lanes metric[6];  ///< sum of grad N_I grad N_I^T, xx yy zz xy yz zx
-  Lanes density;    ///< with added mass; only for the stable step
   Lanes length;     ///< least altitude, m
 };
 
@@ -59,10 +58,7 @@ class Tet4Block final : public ElementBlock {
     }
   }
   double corner_mass(int element) const override {
-    return 0.25 * (law_.density + added_density_[element]) * element_volume(element);
-  }
-  double added_mass(int element) const override {
-    return added_density_[element] * element_volume(element);
+    return 0.25 * law_.density * element_volume(element);
   }
   double element_volume(int element) const override {
     return groups_[element / kLanes].volume[element % kLanes];
@@ -77,13 +73,10 @@ class Tet4Block final : public ElementBlock {
   void forces(const StepContext& step, std::span<double> history, std::span<double> corner_forces,
               std::span<double> corner_moments, int first, int last,
               BlockSums& sums) const override;
-  double initial_stable_step(int element) const override {
-    const int group = element / kLanes;
-    Tensor<Lanes> identity;
-    for (int k = 0; k < 9; ++k) identity(k / 3, k % 3) = Lanes::Constant(k % 4 == 0 ? 1.0 : 0.0);
-    return std::sqrt(stable_step_squared(group, identity, Lanes::Ones(),
-                                         Lanes::Constant(law_.bulk_modulus()),
-                                         Lanes::Constant(law_.shear_modulus()))[element % kLanes]);
+  double initial_stiffness(int element) const override {
+    const Lanes per_volume = hex_stiffness_at_rest(groups_[element / kLanes].metric,
+                                                   law_.bulk_modulus(), law_.shear_modulus());
+    return element_volume(element) * per_volume[element % kLanes];
   }
   ElementSample sample(const StepContext& step, std::span<const double> history,
                        int element) const override;
@@ -102,14 +95,6 @@ class Tet4Block final : public ElementBlock {
   void set_reference(const Mesh& mesh);
   void number_nodes(const Mesh& mesh);
   TetNodes load(const StepContext& step, int group) const;
-  /// omega^2 <= 4 / rho (lambda tr g + 2 mu g_max); see hex_stable_step_squared.
-  Lanes stable_step_squared(int group, const Tensor<Lanes>& F_inverse, const Lanes& J,
-                            const Lanes& bulk, const Lanes& shear) const {
-    HexReference<Lanes> bound;
-    for (int k = 0; k < 6; ++k) bound.metric[k] = groups_[group].metric[k];
-    bound.density = 2.0 * groups_[group].density;  // four corners share the mass instead of eight
-    return hex_stable_step_squared(bound, F_inverse, J, bulk, shear);
-  }
   struct Deformation {
     Tensor<Lanes> F, F_rate;
   };
@@ -126,7 +111,6 @@ class Tet4Block final : public ElementBlock {
   ElementControls controls_;
   TetPressure pressure_;
   std::vector<TetReference, Eigen::aligned_allocator<TetReference>> groups_;
-  std::vector<double> added_density_;
   int node_count_ = 0;
   std::vector<int> local_;                 ///< node of a corner, numbered within the block
   std::vector<int> begin_, element_list_;  ///< elements of each node
@@ -135,7 +119,6 @@ class Tet4Block final : public ElementBlock {
 template <class Law>
 void Tet4Block<Law>::set_reference(const Mesh& mesh) {
   groups_.resize(group_count());
-  added_density_.assign(element_count(), 0.0);
   for (int group = 0; group < group_count(); ++group) {
     TetReference& ref = groups_[group];
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -161,18 +144,11 @@ void Tet4Block<Law>::set_reference(const Mesh& mesh) {
       }
       ref.volume.set(lane, volume);
       ref.length.set(lane, 1 / steepest);
-      ref.density.set(lane, law_.density);
       const double entries[6] = {metric(0, 0), metric(1, 1), metric(2, 2),
                                  metric(0, 1), metric(1, 2), metric(2, 0)};
       for (int k = 0; k < 6; ++k) ref.metric[k].set(lane, entries[k]);
     }
   }
-  for (int e = 0; e < element_count(); ++e) {
-    const double lacking = controls_.minimum_step / initial_stable_step(e);
-    if (lacking > 1) added_density_[e] = law_.density * (lacking * lacking - 1);
-  }
-  for (int e = 0; e < element_count(); ++e)
-    groups_[e / kLanes].density.data()[e % kLanes] += added_density_[e];
 }
 
 template <class Law>
@@ -309,24 +285,26 @@ void Tet4Block<Law>::forces(const StepContext& step, std::span<double> history,
     Symmetric<Lanes> tau{h[kTau], h[kTau + 1], h[kTau + 2], h[kTau + 3], h[kTau + 4], h[kTau + 5]};
     add_pressure(tau, Lanes(pressure * answer.J - q));
     const Tensor<Lanes> P = pulled_back(tau, F_inverse);
+    answer.stiffness = Lanes::Zero();
+    if (step.wants_stable_step)
+      answer.stiffness = h[kAlive] * ref.volume *
+                         hex_stiffness(ref.metric, F_inverse, answer.J, h[kBulk], h[kShear]) *
+                         stiffening_by_viscosity(compression, viscous_speed, wave_speed);
     const Lanes factor = -ref.volume * h[kAlive];
     for (int c = 0; c < 4; ++c) {
       Lanes f[3];
       for (int i = 0; i < 3; ++i)
         f[i] = factor * (P(i, 0) * ref.gradient[c][0] + P(i, 1) * ref.gradient[c][1] +
                          P(i, 2) * ref.gradient[c][2]);
-      store_corner(f[0], f[1], f[2], corner_forces.data() + corner_slot(group - first, c, 0), 0);
+      store_corner(f[0], f[1], f[2], answer.stiffness,
+                   corner_forces.data() + corner_slot(group - first, c, 0), 0);
     }
     answer.alive = h[kAlive];
     answer.energy = h[kEnergy];
     answer.hourglass_stored = answer.hourglass_power = Lanes::Zero();
     answer.viscous_power = q * compression / ref.length * ref.volume;
-    const Lanes ratio = where_less(constant<Lanes>(0), compression,
-                                   Lanes(viscous_speed / wave_speed), constant<Lanes>(0));
-    const Lanes shorten = square_root(Lanes(1.0 + ratio * ratio)) - ratio;
-    answer.stable_step_squared =
-        stable_step_squared(group, F_inverse, answer.J, h[kBulk], h[kShear]) * shorten * shorten;
-    add_to_sums(answer, lane_mask<Lanes>(group), step, group, element_count(), lanes, sums);
+    add_to_sums(answer, Lanes((0.25 * law_.density) * ref.volume), lane_mask<Lanes>(group), step,
+                group, element_count(), lanes, sums);
   }
   lanes.book(sums);
 }

@@ -86,8 +86,7 @@ bool add_beam_block(BuildContext& c, const Part& part, int index,
   const std::optional<BeamSection> beam = beam_section(c, part, *card);
   const std::optional<std::vector<Vec3>> planes = beam_planes(c, part, elements);
   if (beam && planes && c.problem_count == 0)
-    c.model().blocks.push_back(make_beam_block(c.mesh(), index, elements, *beam, *planes,
-                                               element_controls(c, part).minimum_step));
+    c.model().blocks.push_back(make_beam_block(c.mesh(), index, elements, *beam, *planes));
   return true;
 }
 
@@ -96,8 +95,6 @@ void add_line_block(BuildContext& c, const Part& part, int index, std::vector<in
   std::optional<LineProperties> properties = line_properties(c, part);
   if (!properties) return;
   if (part.is_averaged) properties->strands = strands_of(c.mesh(), elements);
-  if (std::holds_alternative<ElasticLine>(properties->law))
-    properties->minimum_step = element_controls(c, part).minimum_step;
   const auto is_apart = [&](int e) {
     const std::span<const int> n = c.mesh().corners(ElementKind::Line2, e);
     return (c.mesh().position[n[0]] - c.mesh().position[n[1]]).norm() > 0;

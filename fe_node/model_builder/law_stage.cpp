@@ -285,11 +285,6 @@ ElementControls element_controls(BuildContext& c, const Part& part) {
   }
   // 0..3 are viscous forms, 4 and more stiffness forms [hallquist2006, 3.2].
   controls.hourglass = type <= 3 ? HourglassForm::Viscous : HourglassForm::Stiffness;
-  const double scale = control.time_step ? control.time_step->scale : 0.9;
-  double step = c.options.mass_scaling_step;
-  if (step < 0)
-    step = control.time_step ? std::abs(control.time_step->mass_scaled_step) * c.units.time : 0.0;
-  controls.minimum_step = step / scale;
   controls.precision = c.options.precision;
   return controls;
 }

@@ -62,6 +62,11 @@ void read_controls(BuildContext& c) {
                                      "*CONTROL_TIMESTEP field LCTM"))
         settings.step_limit = *limit;
   }
+  if (c.options.mass_scaling_step >= 0)
+    settings.mass_scaling_step = c.options.mass_scaling_step;
+  else if (control.time_step)
+    settings.mass_scaling_step =
+        std::abs(control.time_step->mass_scaled_step) * c.units.time / settings.step_scale;
   c.built.field_interval = interval_of(c.deck, "DATABASE_BINARY_D3PLOT", c.units.time);
   c.built.history_interval = interval_of(c.deck, "DATABASE_GLSTAT", c.units.time);
 }
@@ -72,46 +77,6 @@ int BuiltModel::part_set(std::string_view name) const {
   for (std::size_t i = 0; i < part_sets.size(); ++i)
     if (part_sets[i].first == name) return static_cast<int>(i);
   return -1;
-}
-
-double mass_scaling_step_for(const Model& model, double limit) {
-  struct Element {
-    double step, mass;
-    int part;
-  };
-  std::vector<Element> elements;
-  double total = 0;
-  std::vector<double> part_mass(model.mesh.parts.size(), 0.0);
-  for (const auto& block : model.blocks)
-    for (int e = 0; e < block->element_count(); ++e) {
-      const double mass = block->corners() * block->corner_mass(e);
-      elements.push_back({block->initial_stable_step(e), mass, block->part()});
-      total += mass;
-      part_mass[block->part()] += mass;
-    }
-  for (const RigidBody& body : model.bodies) total += body.own.mass;
-  for (double m : model.point_mass) total += m;
-  const auto is_allowed = [&](double step) {
-    double added = 0;
-    std::vector<double> of_part(part_mass.size(), 0.0);
-    for (const Element& e : elements)
-      if (e.step < step) of_part[e.part] += e.mass * (std::pow(step / e.step, 2) - 1);
-    for (std::size_t p = 0; p < of_part.size(); ++p) {
-      if (of_part[p] > kPartLimit * part_mass[p]) return false;
-      added += of_part[p];
-    }
-    return added <= limit * total;
-  };
-  double low = std::numeric_limits<double>::infinity();
-  for (const Element& e : elements) low = std::min(low, e.step);
-  if (!std::isfinite(low)) return 0;
-  double high = 2 * low;
-  while (is_allowed(high)) high *= 2;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (low + high);
-    (is_allowed(middle) ? low : high) = middle;
-  }
-  return model.settings.step_scale * low;
 }
 
 namespace {
@@ -145,6 +110,7 @@ void add_joints(BuiltModel& built, double step) {
 }  // namespace
 
 void finish_model(BuiltModel& built) {
+  built.model.finish();
   const double step = built.model.settings.step_scale * initial_stable_step(built.model);
   for (RigidSurfaceSpec& wall : built.walls) {
     for (RigidPatch& patch : wall.patches) std::get<PenaltyLaw>(patch.law).reference_step = step;
@@ -153,7 +119,6 @@ void finish_model(BuiltModel& built) {
   for (MeshContactSpec& contact : built.mesh_contacts)
     built.model.contacts.push_back(make_mesh_contact(std::move(contact), step));
   built.mesh_contacts.clear();
-  built.model.finish();
   add_joints(built, step);
 }
 

@@ -22,8 +22,8 @@ struct BuildOptions {
   std::vector<std::string> driven_parts;
   /// Added after the deck's own bodies, in this order: bodies that only lend contact surfaces.
   std::vector<std::string> followers;
-  /// s; > 0: elements get mass added until none needs a smaller step (safety factor included).
-  /// Negative: as the deck says (*CONTROL_TIMESTEP DT2MS).
+  /// s, unscaled; > 0: nodes get mass added until none needs a smaller step. Negative: as the deck
+  /// says (*CONTROL_TIMESTEP DT2MS, which includes the safety factor).
   double mass_scaling_step = -1;
   Precision precision = Precision::Double;
   /// Nodes of this id and above come behind all others in the mesh (a part that may sleep);
@@ -47,13 +47,8 @@ struct BuiltModel {
   std::vector<JointStiffnessSpec> joint_stiffnesses;  ///< likewise, behind the joints
 };
 
-/// Adds the rigid walls, calls Model::finish() and reports added mass.
+/// Calls Model::finish(), then adds the walls, contacts and joints.
 void finish_model(BuiltModel& built);
-
-/// The largest step, safety factor included, for which mass scaling adds at most `limit` of the
-/// whole mass and kPartLimit of any part's; for a model built without scaling.
-inline constexpr double kPartLimit = 0.05;
-double mass_scaling_step_for(const Model& model, double limit);
 
 /// Throws UserError.
 BuiltModel build_model(const Deck& deck, const BuildOptions& options);

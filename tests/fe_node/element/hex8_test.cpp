@@ -136,9 +136,8 @@ TEST(Hex8, MassScalingReachesTheStepAndIsReported) {
   Model plain = box_model({2, 1, 1, {2 * h, h, h}}, kSteel);
   plain.finish();
   const double step = initial_stable_step(plain);
-  ElementControls controls;
-  controls.minimum_step = 1.5 * step;
-  Model scaled = box_model({2, 1, 1, {2 * h, h, h}}, kSteel, controls);
+  Model scaled = box_model({2, 1, 1, {2 * h, h, h}}, kSteel);
+  scaled.settings.mass_scaling_step = 1.5 * step;
   scaled.finish();
   EXPECT_NEAR(initial_stable_step(scaled), 1.5 * step, 1e-9 * step);
   EXPECT_NEAR(scaled.added_mass[0], 1.25 * plain.total_mass(), 1e-12);

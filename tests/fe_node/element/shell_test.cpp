@@ -60,9 +60,8 @@ TEST_P(EveryShell, MassScalingIsReportedPerPart) {
   const ShellSection section = glass(kThickness);
   Model plain = plate_model(plate(4, 4), section);
   plain.finish();
-  ElementControls controls;
-  controls.minimum_step = 2 * initial_stable_step(plain);
-  Model scaled = plate_model(plate(4, 4), section, controls);
+  Model scaled = plate_model(plate(4, 4), section);
+  scaled.settings.mass_scaling_step = 2 * initial_stable_step(plain);
   scaled.finish();
   const double own = 2500 * kThickness;  // 1 m2
   EXPECT_DOUBLE_EQ(plain.added_mass[0], 0);

@@ -1,8 +1,8 @@
 // What every solid element must do: one list of properties over all of them.
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "fe_node/solver.h"
+#include "tests/fe_node/exact_step.h"
 #include "tests/fe_node/solid_models.h"
 
 namespace crosswalk::fe {
@@ -109,26 +109,7 @@ TEST_P(EverySolid, StableStepIsBelowTheExactOneAndNotWasteful) {
     Model model = solid_model(GetParam(), {2, 1, 1, {2, 1, 0.7}},
                               Elastic::from_young(1000, 1e6, poisson), without_viscosity());
     model.finish();
-    State state = initial_state(model);
-    const int size = 3 * model.mesh.node_count();
-    Eigen::MatrixXd K(size, size);
-    const double h = 1e-6;
-    for (int column = 0; column < size; ++column) {
-      double& x = state.nodes[column / 3].x[column % 3];
-      const double kept = x;
-      x = kept + h;
-      const std::vector<Vec3> up = forces_at(model, state);
-      x = kept - h;
-      const std::vector<Vec3> down = forces_at(model, state);
-      x = kept;
-      for (int row = 0; row < size; ++row)
-        K(row, column) = -(up[row / 3][row % 3] - down[row / 3][row % 3]) / (2 * h);
-    }
-    Eigen::VectorXd root(size);
-    for (int row = 0; row < size; ++row) root[row] = 1 / std::sqrt(model.mass[row / 3]);
-    const Eigen::MatrixXd A = root.asDiagonal() * (0.5 * (K + K.transpose())) * root.asDiagonal();
-    const double exact =
-        2 / std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues().maxCoeff());
+    const double exact = exact_stable_step(model);
     const double estimate = initial_stable_step(model);
     EXPECT_LE(estimate, exact * (1 + 1e-4)) << poisson;
     EXPECT_GE(estimate, 0.4 * exact) << poisson;

@@ -239,7 +239,7 @@ TEST(ModelBuilder, SpringsAndTrussesBecomeLines) {
 
 TEST(ModelBuilder, MassScalingReachesTheStepThatIsAskedFor) {
   BuildOptions options;
-  options.mass_scaling_step = 2e-6;
+  options.mass_scaling_step = 2e-6 / 0.9;
   const BuiltModel scaled = model_of(kCube + "*CONTROL_TIMESTEP\n0,0.9\n", options);
   EXPECT_NEAR(0.9 * initial_stable_step(scaled.model), 2e-6, 1e-9);
   EXPECT_GT(scaled.model.added_mass[0], 0);

@@ -79,6 +79,22 @@ void add(const BlockSums& part, BlockSums& sum) {
   }
 }
 
+/// What the elements allow, s, unscaled.
+double nodal_stable_step(const Model& model, const State& state, const Scratch& scratch) {
+  const int node_count = awake_node_count(model, state);
+  const ForceTiles& tiles = model.tiles;
+  double largest = 0;
+#pragma omp parallel for schedule(static) num_threads(scratch.threads) reduction(max : largest)
+  for (int n = 0; n < node_count; ++n) {
+    const double k = stiffness_of_rows(tiles.force_rows, scratch.force_rows.data(), n);
+    largest = std::max(largest, frequency_squared(k, model.resisting.mass[n]));
+    if (!model.has_rotations()) continue;
+    const double spin = stiffness_of_rows(tiles.moment_rows, scratch.moment_rows.data(), n);
+    largest = std::max(largest, frequency_squared(spin, model.resisting.inertia[n]));
+  }
+  return step_at(largest);
+}
+
 }  // namespace
 
 void element_forces(const Model& model, State& state, Scratch& scratch) {

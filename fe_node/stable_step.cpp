@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fe_node/solver.h"
+#include "fe_node/model.h"
 
 namespace crosswalk::fe {
 namespace {
@@ -40,14 +40,6 @@ struct NodalStiffness {
   }
 };
 
-/// omega^2, 1/s2; zero where nothing moves.
-double frequency_squared(double stiffness, double mass) { return mass > 0 ? stiffness / mass : 0; }
-
-double step_of(double frequency_squared) {
-  return frequency_squared > 0 ? 2 / std::sqrt(frequency_squared)
-                               : std::numeric_limits<double>::infinity();
-}
-
 /// Mass that a node lacks for a step.
 double lacking(double stiffness, double mass, double step) {
   return mass > 0 ? std::max(0.0, 0.25 * stiffness * step * step - mass) : 0.0;
@@ -73,6 +65,11 @@ AddedMass added_mass_for(const Model& model, const NodalStiffness& stiffness, co
 }
 
 }  // namespace
+
+double step_at(double frequency_squared) {
+  return frequency_squared > 0 ? 2 / std::sqrt(frequency_squared)
+                               : std::numeric_limits<double>::infinity();
+}
 
 NodalMass resisting_mass(const Model& model) {
   NodalMass own;
@@ -101,22 +98,7 @@ double initial_stable_step(const Model& model) {
     largest = std::max(largest, frequency_squared(stiffness.translation[n], own.mass[n]));
   for (std::size_t n = 0; n < own.inertia.size(); ++n)
     largest = std::max(largest, frequency_squared(stiffness.rotation[n], own.inertia[n]));
-  return step_of(largest);
-}
-
-double nodal_stable_step(const Model& model, const State& state, const Scratch& scratch) {
-  const int node_count = awake_node_count(model, state);
-  const ForceTiles& tiles = model.tiles;
-  double largest = 0;
-#pragma omp parallel for schedule(static) num_threads(scratch.threads) reduction(max : largest)
-  for (int n = 0; n < node_count; ++n) {
-    const double k = stiffness_of_rows(tiles.force_rows, scratch.force_rows.data(), n);
-    largest = std::max(largest, frequency_squared(k, model.resisting.mass[n]));
-    if (!model.has_rotations()) continue;
-    const double spin = stiffness_of_rows(tiles.moment_rows, scratch.moment_rows.data(), n);
-    largest = std::max(largest, frequency_squared(spin, model.resisting.inertia[n]));
-  }
-  return step_of(largest);
+  return step_at(largest);
 }
 
 AddedMass added_mass_for(const Model& model, double step) {

@@ -16,8 +16,6 @@
 namespace crosswalk::fe {
 
 struct Model;
-struct State;
-struct Scratch;
 
 /// Per node: kg and kg m2 that resist its elements; 0 where the motion is prescribed.
 struct NodalMass {
@@ -26,10 +24,15 @@ struct NodalMass {
 /// Without mass scaling. The model need not be finished.
 NodalMass resisting_mass(const Model& model);
 
+/// omega^2 of a node, 1/s2; zero where the motion is prescribed.
+inline double frequency_squared(double stiffness, double mass) {
+  return mass > 0 ? stiffness / mass : 0;
+}
+/// The stable step at the largest frequency of all, s; infinite at zero.
+double step_at(double frequency_squared);
+
 /// The stable step at the start, s, unscaled; of a finished model with its added mass.
 double initial_stable_step(const Model& model);
-/// What the elements allow now, s, unscaled, after their forces and stiffnesses.
-double nodal_stable_step(const Model& model, const State& state, const Scratch& scratch);
 
 /// A brain floats, and weighs 4 % of its mass in its fluid: one per cent more of it changed the
 /// strain of V2370 by five (docs/head_neck_model.md, "Sizes").

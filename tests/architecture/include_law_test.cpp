@@ -49,26 +49,13 @@ TEST(IncludeLaw, NodesIncludeCommonAndThemselvesOnly) {
 
 /// Layer of a file of fe_node; higher may include lower and equal.
 int fe_layer(const fs::path& file) {
-  static const std::map<std::string, int> layers = {{"mesh", 0},
-                                                    {"material", 0},
-                                                    {"deck", 0},
-                                                    {"element", 1},
-                                                    {"generate", 1},
-                                                    {"contact", 2},
-                                                    {"constraint", 2},
-                                                    {"model", 3},
-                                                    {"state", 3},
-                                                    {"energy", 3},
-                                                    {"force_tiles", 3},
-                                                    {"guided_body", 3},
-                                                    {"sleeper", 3},
-                                                    {"history_requests", 3},
-                                                    {"solver", 4},
-                                                    {"element_forces", 4},
-                                                    {"explosion", 4},
-                                                    {"model_builder", 4},
-                                                    {"boundary", 5},
-                                                    {"output", 5}};
+  static const std::map<std::string, int> layers = {
+      {"mesh", 0},           {"material", 0},         {"deck", 0},          {"element", 1},
+      {"generate", 1},       {"contact", 2},          {"constraint", 2},    {"model", 3},
+      {"state", 3},          {"energy", 3},           {"force_tiles", 3},   {"guided_body", 3},
+      {"sleeper", 3},        {"history_requests", 3}, {"stable_step", 3},   {"solver", 4},
+      {"element_forces", 4}, {"explosion", 4},        {"model_builder", 4}, {"boundary", 5},
+      {"output", 5}};
   const fs::path inside = file.lexically_relative("fe_node");
   const std::string part = inside.has_parent_path() ? first_part(inside) : inside.stem().string();
   const auto found = layers.find(part);

@@ -265,7 +265,7 @@ ReportTable coupling_table(const std::vector<ComparedRun>& runs) {
       "One scenario with two schemes or windows: largest distance of the head's centre of mass "
       "until the head strikes and over the whole run, and change of its peak acceleration. A pane "
       "that cracks enlarges the least difference of any kind: behind its first crack the share of "
-      "the coupling shows only in runs with the windshield rigid.",
+      "the coupling shows only in runs whose windshield does not crack.",
       {"runs", "until the head strikes [mm]", "head path [mm]", "at [ms]", "peak acceleration [%]"},
       {}};
   const auto label = [](const ComparedRun& run) {

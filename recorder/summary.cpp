@@ -204,9 +204,8 @@ void add_statements(Summary& s, const std::optional<ReferenceData>& reference) {
         "it is struck is left out, and no band of the whole test applies.");
   }
   s.statements.push_back(
-      "Car profile and contact curves, body joints and tissue laws are engineering estimates where "
-      "no "
-      "published number exists; each is marked in its file under scenarios/.");
+      "Car profile, windshield and contact curves, body joints and tissue laws are engineering "
+      "estimates where no published number exists; each is marked in its file under scenarios/.");
   if (!reference) {
     s.statements.push_back("No reference data is kept for this scenario: nothing was compared.");
   } else if (reference->curves.empty()) {

@@ -9,23 +9,14 @@ namespace crosswalk::fe {
 namespace {
 
 void lump_masses(Model& model) {
-  const int node_count = model.mesh.node_count();
-  model.mass.assign(node_count, 0.0);
-  if (!model.point_mass.empty()) model.mass = model.point_mass;
+  NodalMass lumped = lumped_mass(model);
+  model.mass = std::move(lumped.mass);
+  model.inertia = std::move(lumped.inertia);
   model.added_mass.assign(model.mesh.parts.size(), 0.0);
   model.part_mass.assign(model.mesh.parts.size(), 0.0);
-  const bool has_rotations = std::any_of(model.blocks.begin(), model.blocks.end(),
-                                         [](const auto& b) { return b->has_moments(); });
-  if (has_rotations) model.inertia.assign(node_count, 0.0);
   for (const auto& block : model.blocks)
-    for (int element = 0; element < block->element_count(); ++element) {
+    for (int element = 0; element < block->element_count(); ++element)
       model.part_mass[block->part()] += block->corners() * block->corner_mass(element);
-      for (int corner = 0; corner < block->corners(); ++corner) {
-        const int node = block->node(element / kLanes, corner, element % kLanes);
-        model.mass[node] += block->corner_mass(element);
-        if (block->has_moments()) model.inertia[node] += block->corner_inertia(element);
-      }
-    }
 }
 
 /// Adds the mass that the wanted step lacks, and notes what resists the elements of each node.

@@ -71,7 +71,7 @@ double step_at(double frequency_squared) {
                                : std::numeric_limits<double>::infinity();
 }
 
-NodalMass resisting_mass(const Model& model) {
+NodalMass lumped_mass(const Model& model) {
   NodalMass own;
   own.mass.assign(model.mesh.node_count(), 0.0);
   if (!model.point_mass.empty()) own.mass = model.point_mass;
@@ -80,6 +80,11 @@ NodalMass resisting_mass(const Model& model) {
     own.mass[node] += block.corner_mass(e);
     if (block.has_moments()) own.inertia[node] += block.corner_inertia(e);
   });
+  return own;
+}
+
+NodalMass resisting_mass(const Model& model) {
+  NodalMass own = lumped_mass(model);
   const auto bounds_nothing = [&own](int node) {
     own.mass[node] = 0;
     if (!own.inertia.empty()) own.inertia[node] = 0;

@@ -17,11 +17,13 @@ namespace crosswalk::fe {
 
 struct Model;
 
-/// Per node: kg and kg m2 that resist its elements; 0 where the motion is prescribed.
+/// kg and kg m2 per node; the inertia is empty without shells and beams.
 struct NodalMass {
-  std::vector<double> mass, inertia;  ///< inertia is empty without shells and beams
+  std::vector<double> mass, inertia;
 };
-/// Without mass scaling. The model need not be finished.
+/// Of elements and mass points, before mass scaling. The model need not be finished.
+NodalMass lumped_mass(const Model& model);
+/// What of it resists the elements: none where the motion is prescribed.
 NodalMass resisting_mass(const Model& model);
 
 /// omega^2 of a node, 1/s2; zero where the motion is prescribed.

@@ -1,7 +1,6 @@
 #include "fe_node/solver.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #include "fe_node/element/tet4.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/error.h"
 #include "fe_node/element/dilation.h"

@@ -55,6 +55,9 @@ HeadNeckSpec read_head_neck_spec(ConfigTable table, const Anthropometry& subject
                          "Moments of inertia about the head's centre: axes forward, left, up.");
     if (moments.size() == 3) spec.mass.head_moments = {moments[0], moments[1], moments[2]};
   }
+  spec.brain_bulk =
+      table.quantity_or("brain_bulk", Dimension::Stress, {0.1e9, 3e9}, spec.brain_bulk,
+                        "Bulk modulus of brain, cord and CSF; that of water is 2.19 GPa.");
   spec.muscle_area_factor =
       table.quantity_or("muscle_area_factor", Dimension::None, {0.2, 3.0}, spec.muscle_area_factor,
                         "Factor on the muscle areas of an average female.");

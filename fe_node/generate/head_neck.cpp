@@ -95,7 +95,7 @@ class Assembly {
 
   HeadNeck run() {
     draft().title = "Crosswalk generated head and neck";
-    draft().parts = head_tissues();
+    draft().parts = head_tissues(spec_.brain_bulk);
     add_head();
     add_spine(draft(), spine_, resolution_.spine);
     add_clavicle_blocks();

@@ -15,6 +15,7 @@
 #include "fe_node/generate/mass_report.h"
 #include "fe_node/generate/part_spec.h"
 #include "fe_node/generate/spine.h"
+#include "fe_node/generate/tissues.h"
 
 namespace crosswalk {
 class ConfigTable;
@@ -37,6 +38,7 @@ struct HeadNeckSpec {
   double stature = 1.753;             ///< m
   std::optional<NeckFit> fit;         ///< none: neck and head stand as stature has them
   MassTarget mass;
+  double brain_bulk = kBrainBulk;   ///< of brain, cord and CSF, Pa
   double muscle_area_factor = 1.2;  ///< on the female baseline areas
   double activation = 0;            ///< of all muscles, 0 to 1
   UnitSystem units = UnitSystem::MmTonneS;

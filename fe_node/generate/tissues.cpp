@@ -6,17 +6,14 @@ namespace crosswalk::fe::generate {
 
 namespace {
 
-constexpr double kBrainBulk = 2.19e9;  // Pa, as water [mao2013]
-
-PartSpec brain(int id, const char* name, double shear_short, double shear_long, const char* source,
-               Grade grade) {
+PartSpec brain(int id, const char* name, double bulk, double shear_short, double shear_long,
+               const char* source, Grade grade) {
   return {.id = id,
           .name = name,
           .density = 1040,
-          .law = mat::Viscoelastic{.bulk = kBrainBulk,
-                                   .shear_short = shear_short,
-                                   .shear_long = shear_long,
-                                   .decay = 80},
+          .law =
+              mat::Viscoelastic{
+                  .bulk = bulk, .shear_short = shear_short, .shear_long = shear_long, .decay = 80},
           .section = SolidSection{.hourglass = 0.05},
           .source = source,
           .grade = grade};
@@ -50,7 +47,7 @@ PartSpec membrane(int id, const char* name, double density, double youngs, doubl
 
 }  // namespace
 
-std::vector<PartSpec> head_tissues() {
+std::vector<PartSpec> head_tissues(double brain_bulk) {
   const char* brain_source = "GHBMC grey matter G0 6, Ginf 1.2 kPa; decay 80/s usual";
   const char* stem_source = "twice the cerebrum, after the ratio in WSUHIM";
   return {
@@ -84,21 +81,26 @@ std::vector<PartSpec> head_tissues() {
        .name = "csf",
        .density = 1000,
        .law =
-           mat::Viscoelastic{.bulk = 2.19e9, .shear_short = 500, .shear_long = 500, .decay = 100},
+           mat::Viscoelastic{
+               .bulk = brain_bulk, .shear_short = 500, .shear_long = 500, .decay = 100},
        .section = SolidSection{.hourglass = 0.05},
-       .source = "water; shear modulus 0.5 kPa numerical",
+       .source = "K as brain; shear modulus 0.5 kPa numerical",
        .grade = Grade::Literature},
-      brain(part::kCerebrumLeft, "cerebrum_left", 6e3, 1.2e3, brain_source, Grade::Source),
-      brain(part::kCerebrumRight, "cerebrum_right", 6e3, 1.2e3, brain_source, Grade::Source),
-      brain(part::kCerebellumLeft, "cerebellum_left", 6e3, 1.2e3, brain_source, Grade::Source),
-      brain(part::kCerebellumRight, "cerebellum_right", 6e3, 1.2e3, brain_source, Grade::Source),
-      brain(part::kBrainstem, "brainstem", 12e3, 2.4e3, stem_source, Grade::Literature),
+      brain(part::kCerebrumLeft, "cerebrum_left", brain_bulk, 6e3, 1.2e3, brain_source,
+            Grade::Source),
+      brain(part::kCerebrumRight, "cerebrum_right", brain_bulk, 6e3, 1.2e3, brain_source,
+            Grade::Source),
+      brain(part::kCerebellumLeft, "cerebellum_left", brain_bulk, 6e3, 1.2e3, brain_source,
+            Grade::Source),
+      brain(part::kCerebellumRight, "cerebellum_right", brain_bulk, 6e3, 1.2e3, brain_source,
+            Grade::Source),
+      brain(part::kBrainstem, "brainstem", brain_bulk, 12e3, 2.4e3, stem_source, Grade::Literature),
       {.id = part::kCord,
        .name = "cord",
        .density = 1040,
        .law =
            mat::Viscoelastic{
-               .bulk = kBrainBulk, .shear_short = 0.1e6, .shear_long = 0.1e6, .decay = 80},
+               .bulk = brain_bulk, .shear_short = 0.1e6, .shear_long = 0.1e6, .decay = 80},
        .section = SolidSection{.hourglass = 0.05},
        .source = "spinal cord, E 0.3 MPa; fills the foramen magnum",
        .grade = Grade::Literature},

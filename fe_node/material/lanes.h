@@ -195,12 +195,6 @@ double sum(const LanesOf<Real>& a) {
     for (int i = 0; i < width; ++i) part[i] += part[i + width];
   return part[0];
 }
-template <class Real>
-double smallest(const LanesOf<Real>& a) {
-  double least = a[0];
-  for (int i = 1; i < kWidth<LanesOf<Real>>; ++i) least = smaller(a[i], least);
-  return least;
-}
 
 /// False also for a lane that is not a number.
 inline bool all_positive(double a) { return a > 0; }

@@ -1,7 +1,6 @@
 #include "fe_node/model_builder/model_builder.h"
 
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>

@@ -16,9 +16,9 @@ using generate::ModelDraft;
 namespace {
 
 constexpr int kOcciput = part::kFirstVertebra - 10;
-/// Tissue in a rigid skull keeps its volume all the same (Poisson's ratio 0.4998 and above), and
-/// the step is ten times larger. Of pressures nothing is read in these cases.
-constexpr double kBulkShare = 0.01;
+/// Pa, a hundredth of water's: tissue in a rigid skull keeps its volume all the same (Poisson's
+/// ratio 0.4998 and above), and the step is larger. Of pressures nothing is read in these cases.
+constexpr double kSoftBulk = 0.01 * generate::kWaterBulk;
 
 /// Renumbers the nodes that are used; -1 for the others.
 class Renumbering {
@@ -99,11 +99,12 @@ ModelDraft rigid_skull_head(const generate::HeadNeck& whole) {
   for (generate::Hex& hex : draft.mesh.hexes)
     if (hex.part == part::kDiploe) hex.part = kOcciput;
   std::vector<int> parts = parts_of_set(draft, "brain");
-  parts.insert(parts.end(), {part::kCsf, part::kCord, kOcciput, part::kPia, part::kFalx, part::kTentorium});
+  parts.insert(parts.end(),
+               {part::kCsf, part::kCord, kOcciput, part::kPia, part::kFalx, part::kTentorium});
   ModelDraft out = extract(draft, parts);
   out.title = "Brain in a rigid skull";
   for (generate::PartSpec& spec : out.parts)
-    if (auto* law = std::get_if<mat::Viscoelastic>(&spec.law)) law->bulk *= kBulkShare;
+    if (auto* law = std::get_if<mat::Viscoelastic>(&spec.law)) law->bulk = kSoftBulk;
   return out;
 }
 

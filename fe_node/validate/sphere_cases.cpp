@@ -7,6 +7,7 @@
 
 #include "common/units.h"
 #include "fe_node/generate/primitives.h"
+#include "fe_node/generate/tissues.h"
 #include "fe_node/output/tissue_metrics.h"
 #include "fe_node/validate/deck_case.h"
 #include "fe_node/validate/validate.h"
@@ -19,7 +20,7 @@ using Complex = std::complex<double>;
 constexpr double kRadius = 0.070, kDensity = 1040;                    // m, kg/m3
 constexpr double kShearShort = 6e3, kShearLong = 1.2e3, kDecay = 80;  // Pa, Pa, 1/s
 /// A hundredth of water's: torsion does not change volumes, and the step is ten times larger.
-constexpr double kBulk = 2.19e7;
+constexpr double kBulk = 0.01 * generate::kWaterBulk;
 constexpr int kBall = 1, kShell = 2;
 
 /// The closed forms are asked at no less than 22 cells, whatever the size of the head.
@@ -185,7 +186,7 @@ double pressure_near(const DeckRun& run, double x) {
 CaseResult sphere_pressure(const CaseContext& context) {
   constexpr double kAcceleration = 1000, kRise = 8e-3, kEnd = 12e-3;  // m/s2, s, s
   const int n = cells(context.fidelity);
-  const generate::ModelDraft draft = ball_in_shell(n, 2.19e9);
+  const generate::ModelDraft draft = ball_in_shell(n, generate::kBrainBulk);
   DeckCase deck(draft, UnitSystem::MmTonneS);
   Points speed;
   double v = 0;

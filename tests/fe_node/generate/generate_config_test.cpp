@@ -29,13 +29,15 @@ TEST(GenerateConfig, DefaultsAreLiteraturePassive) {
   EXPECT_FALSE(pane.has_value());
   EXPECT_EQ(spec.mass.preset, MassPreset::Literature);
   EXPECT_EQ(spec.activation, 0);
+  EXPECT_EQ(spec.brain_bulk, kBrainBulk);
   EXPECT_EQ(spec.head.length, 0.185);
 }
 
 TEST(GenerateConfig, MeasuredHeadInUserUnits) {
   ConfigDocument document = ConfigDocument::from_text(
       "[head_neck]\nmass = \"measured\"\nhead_mass_g = 4100\n"
-      "head_moments_kg_m2 = [0.018, 0.020, 0.014]\n[windshield]\nmodel = \"laminated\"\ncell_mm = "
+      "head_moments_kg_m2 = [0.018, 0.020, 0.014]\nbrain_bulk_GPa = 2.19\n[windshield]\nmodel = "
+      "\"laminated\"\ncell_mm = "
       "5\n",
       "test.toml");
   const HeadNeckSpec spec =
@@ -46,6 +48,7 @@ TEST(GenerateConfig, MeasuredHeadInUserUnits) {
   EXPECT_EQ(spec.fidelity, Fidelity::Medium);
   EXPECT_NEAR(spec.mass.head_mass, 4.1, 1e-12);
   EXPECT_EQ(spec.mass.head_moments, Vec3(0.018, 0.020, 0.014));
+  EXPECT_NEAR(spec.brain_bulk, kWaterBulk, 1);
   ASSERT_TRUE(pane.has_value());
   EXPECT_EQ(pane->kind, WindshieldKind::Laminated);
   EXPECT_NEAR(pane->cell, 0.005, 1e-15);

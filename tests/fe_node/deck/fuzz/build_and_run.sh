@@ -22,8 +22,8 @@ running=0
 for source in "$root"/tests/fe_node/deck/fuzz/deck_fuzzer.cpp "$root"/fe_node/deck/*.cpp \
   "$root"/fe_node/model_builder/*.cpp "$root"/fe_node/mesh/*.cpp "$root"/fe_node/material/*.cpp \
   "$root"/fe_node/element/*.cpp "$root"/fe_node/contact/*.cpp "$root"/fe_node/constraint/*.cpp \
-  "$root"/fe_node/model.cpp "$root"/fe_node/state.cpp "$root"/fe_node/solver.cpp \
-  "$root"/fe_node/element_forces.cpp "$root"/fe_node/force_tiles.cpp \
+  "$root"/fe_node/model.cpp "$root"/fe_node/state.cpp "$root"/fe_node/scratch.cpp "$root"/fe_node/solver.cpp \
+  "$root"/fe_node/element_forces.cpp "$root"/fe_node/force_tiles.cpp "$root"/fe_node/stable_step.cpp \
   "$root"/fe_node/guided_body.cpp "$root"/fe_node/sleeper.cpp "$root"/fe_node/energy.cpp \
   "$root"/common/error.cpp "$root"/common/spatial.cpp "$root"/common/curve.cpp "$root"/common/rigid_fit.cpp; do
   compile "$source" &
@@ -32,5 +32,5 @@ for source in "$root"/tests/fe_node/deck/fuzz/deck_fuzzer.cpp "$root"/fe_node/de
 done
 wait
 ${CXX:-clang++} -fsanitize=fuzzer,address,undefined objects/*.o -lfmt -o deck_fuzzer
-exec ./deck_fuzzer -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=2048 \
+exec ./deck_fuzzer -max_total_time="$seconds" -max_len=4096 -timeout=60 -rss_limit_mb=2048 \
   -dict="$root"/tests/fe_node/deck/fuzz/keywords.dict found "$root"/tests/fe_node/deck/fuzz/corpus

@@ -13,7 +13,9 @@
 #include "fe_node/bench_workloads.h"
 #include "fe_node/deck/deck_report.h"
 #include "fe_node/deck/units_guess.h"
+#include "fe_node/fe_config.h"
 #include "fe_node/model_builder/model_builder.h"
+#include "fe_node/node_model.h"
 #include "fe_node/solve.h"
 #include "fe_node/validate/validate.h"
 
@@ -170,6 +172,34 @@ NodeCommand validate_command() {
                                                              : ExitCode::NumericalLimit;
             };
           }};
+}
+
+NodeCommand model_command() {
+  return {
+      "model", "write the generated decks of a scenario; their masses and mesh quality",
+      [](CLI::App& options) {
+        struct Arguments {
+          std::string scenario, folder = ".", fidelity;
+        };
+        auto args = std::make_shared<Arguments>();
+        options.add_option("scenario", args->scenario, "Name under scenarios/tests/, or a file")
+            ->required();
+        options.add_option("--fidelity", args->fidelity, "Mesh; as the scenario says by default")
+            ->check(CLI::IsMember({"coarse", "medium", "fine"}));
+        options.add_option("--out", args->folder, "Folder that gets model/")->capture_default_str();
+        return [args] {
+          ConfigDocument document(args->scenario);
+          if (!args->fidelity.empty())
+            document.override_with(fmt::format("[run]\nfidelity = \"{}\"\n", args->fidelity),
+                                   "--fidelity");
+          ignore_tables_of_others(document, "fe_node");
+          const FeConfig config = read_fe_config(document, read_scenario(document));
+          document.finish();
+          const NodeModel model = build_node_model(config, args->folder);
+          std::cout << model.report << fmt::format("\ndecks: {}/model\n", args->folder);
+          return ExitCode::Done;
+        };
+      }};
 }
 
 NodeCommand bench_command() {

@@ -9,6 +9,7 @@ namespace crosswalk::fe {
 
 NodeCommand solve_command();     ///< a keyword deck alone
 NodeCommand validate_command();  ///< component tests against experiments and closed forms
+NodeCommand model_command();     ///< the generated decks of a scenario and their report
 NodeCommand bench_command();     ///< speed of the solver on generated workloads
 CheckFile check_command(CLI::App& options);  ///< `check` of a keyword deck: prints its report
 

@@ -45,5 +45,6 @@ int main(int argc, char** argv) {
              return run_fe_node(context, node);
            },
        .check_file = fe::check_command,
-       .commands = {fe::solve_command(), fe::validate_command(), fe::bench_command()}});
+       .commands = {fe::solve_command(), fe::validate_command(), fe::model_command(),
+                    fe::bench_command()}});
 }

@@ -1,6 +1,7 @@
 #include "fe_node/node_model.h"
 
 #include <algorithm>
+#include <fstream>
 
 #include "common/error.h"
 #include "common/log.h"
@@ -10,6 +11,7 @@
 #include "fe_node/deck/deck_writer.h"
 #include "fe_node/generate/deck_export.h"
 #include "fe_node/head_alone.h"
+#include "fe_node/model_report.h"
 #include "fe_node/own_head.h"
 #include "fe_node/solver.h"
 
@@ -83,6 +85,7 @@ class Assembly {
     find_bodies();
     add_partner_contacts();
     finish_model(built);
+    if (made_) report();
     if (config_.windshield) add_sleeper();
     for (std::size_t c = 0; c < built.model.contacts.size(); ++c) {
       const std::string& name = built.model.contacts[c]->name();
@@ -94,9 +97,9 @@ class Assembly {
  private:
   Deck head_neck_deck() {
     if (config_.head_neck.is_generated) {
-      const generate::HeadNeck made = generate::build_head_neck(config_.head_neck.spec);
-      result_.joint = made.landmarks.c7_t1;
-      return generate::to_deck(made.draft, config_.head_neck.spec.units);
+      made_ = generate::build_head_neck(config_.head_neck.spec);
+      result_.joint = made_->landmarks.c7_t1;
+      return generate::to_deck(made_->draft, config_.head_neck.spec.units);
     }
     result_.joint = config_.head_neck.joint;
     return read_own_deck(config_);
@@ -106,6 +109,11 @@ class Assembly {
     if (folder_.empty()) return;
     std::filesystem::create_directories(folder_ / "model");
     write_deck(folder_ / "model" / name, deck);
+  }
+
+  void report() {
+    result_.report = model_report(*made_, result_.built.model);
+    if (!folder_.empty()) std::ofstream(folder_ / "model/head_neck.txt") << result_.report;
   }
 
   void choose_bodies() {
@@ -186,6 +194,7 @@ class Assembly {
   const FeConfig& config_;
   const std::filesystem::path& folder_;
   NodeModel result_;
+  std::optional<generate::HeadNeck> made_;
   BuildOptions options_;
   std::vector<std::string> driven_, followers_, interface_names_;
 };

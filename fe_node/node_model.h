@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "fe_node/block_motion.h"
@@ -19,10 +20,11 @@ struct NodeModel {
   std::vector<int> head_surface;          ///< nodes that may touch something
   std::vector<std::size_t> car_contacts;  ///< indices of the contacts of head and car
   BlockMotionSetup motion;                ///< but for the place at the start
+  std::string report;                     ///< masses and mesh of a generated head and neck
 };
 
-/// Reads or generates the decks, writes them to `folder`/model (empty: nowhere) and builds the
-/// model. Throws UserError.
+/// Reads or generates the decks, writes them and the report to `folder`/model (empty: nowhere) and
+/// builds the model. Throws UserError.
 NodeModel build_node_model(const FeConfig& config, const std::filesystem::path& folder);
 
 /// Index into BuiltModel::part_sets; throws UserError when absent.

@@ -10,6 +10,7 @@
 #include "common/version.h"
 #include "launcher/check_command.h"
 #include "launcher/handover.h"
+#include "launcher/plan.h"
 #include "launcher/replay_command.h"
 #include "launcher/resume_command.h"
 #include "launcher/run_command.h"
@@ -108,6 +109,13 @@ CLI::App* define_replay(CLI::App& app, ReplayRequest& request) {
   return replay;
 }
 
+/// `model` takes a scenario's name as `run` does; fe_node knows files alone.
+std::vector<std::string> with_scenario_file(std::vector<std::string> arguments) {
+  if (arguments[0] == "model" && arguments.size() > 1 && arguments[1][0] != '-')
+    arguments[1] = find_scenario(arguments[1]).string();
+  return arguments;
+}
+
 std::vector<std::string> command_words(const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {"crosswalk"};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -120,7 +128,7 @@ ExitCode launcher_main(const std::vector<std::string>& arguments) {
   if (!arguments.empty()) {
     const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
     const std::string_view program = program_for(arguments.front(), rest);
-    if (!program.empty()) hand_over(sibling_program(program), arguments);
+    if (!program.empty()) hand_over(sibling_program(program), with_scenario_file(arguments));
     if (arguments.front() == "test") run_tests(rest);
   }
   CLI::App app("Crosswalk: a multibody pedestrian coupled with a finite-element head and neck.",

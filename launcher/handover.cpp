@@ -19,6 +19,7 @@ namespace {
 constexpr std::array kHandovers = {
     Handover{"solve", "fe_node", "run a keyword deck alone"},
     Handover{"validate", "fe_node", "component tests of the finite-element models"},
+    Handover{"model", "fe_node", "write a scenario's generated decks; masses and mesh quality"},
     Handover{
         "bench", "fe_node",
         "speed of the solver; `bench coupling`, `rating`, `report RUN`, `live RUN`: of the rest"},

@@ -150,15 +150,18 @@ class DeckReader {
     std::string tail = blank == std::string::npos ? "" : keyword.substr(blank);
     keyword.erase(std::min(blank, keyword.size()));
     tail = trimmed(tail);
-    if (tail.empty() && !keyword.empty() &&
-        std::string_view("+-%").find(keyword.back()) != std::string_view::npos) {
-      tail = keyword.back();
+    // The sign of the format stands at the keyword's end or by itself after it.
+    std::string sign = tail;
+    while (!keyword.empty() &&
+           std::string_view("+-%").find(keyword.back()) != std::string_view::npos) {
+      sign = keyword.back();
       keyword.pop_back();
     }
+    if (tail.empty()) tail = sign;
     if (keyword == "KEYWORD") return read_keyword_options(tail);
-    if (tail == "+") format = CardFormat::Long;
-    if (tail == "-") format = CardFormat::Standard;
-    if (tail == "%") format = CardFormat::I10;
+    if (sign == "+") format = CardFormat::Long;
+    if (sign == "-") format = CardFormat::Standard;
+    if (sign == "%") format = CardFormat::I10;
     io_.begin(keyword, source, format);
     dispatch(keyword, tail);
     warn_of_rest(keyword);

@@ -10,6 +10,7 @@ namespace {
 TEST(Handover, CommandsFindTheirProgram) {
   EXPECT_EQ(program_for("rate", {}), "recorder");
   EXPECT_EQ(program_for("solve", {"x.k"}), "fe_node");
+  EXPECT_EQ(program_for("model", {"v2370"}), "fe_node");
   EXPECT_EQ(program_for("bench", {}), "fe_node");
   EXPECT_EQ(program_for("bench", {"coupling"}), "coupler");
   EXPECT_EQ(program_for("check", {"--include-path", "meshes", "car.key"}), "fe_node");

@@ -22,6 +22,11 @@ std::string provenance_of(const fs::path& run, const std::string& key) {
   return text.substr(begin, text.find('"', begin) - begin);
 }
 
+RealRun::RealRun() : scenario_(folder_.path() / "coarse.toml") {
+  std::ofstream(scenario_) << "base = \"" << (kScenarios / "v2370.toml").string()
+                           << "\"\n[run]\nfidelity = \"coarse\"\n";
+}
+
 Launched RealRun::call(const std::string& program, std::vector<std::string> arguments,
                        const std::string& name) {
   return Launched(kPrograms / program, std::move(arguments), folder_.path() / (name + ".txt"));

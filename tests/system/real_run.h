@@ -28,6 +28,7 @@ std::string provenance_of(const std::filesystem::path& run, const std::string& k
 
 class RealRun : public testing::Test {
  protected:
+  RealRun();
   Launched call(const std::string& program, std::vector<std::string> arguments,
                 const std::string& name);
   /// `crosswalk run` of scenario(), into the folder out(name).
@@ -35,14 +36,14 @@ class RealRun : public testing::Test {
   /// Runs to the end and expects success.
   void complete(const std::string& name, std::vector<std::string> options);
   std::filesystem::path out(const std::string& name) const { return folder_.path() / name; }
-  /// v2370 by default; with tables laid over it after this call.
+  /// v2370 on the coarse mesh by default; with tables laid over it after this call.
   void lay_over(const std::string& tables);
   const std::filesystem::path& scenario() const { return scenario_; }
   const std::filesystem::path& folder() const { return folder_.path(); }
 
  private:
   TemporaryFolder folder_;
-  std::filesystem::path scenario_ = kScenarios / "v2370.toml";
+  std::filesystem::path scenario_;
 };
 
 }  // namespace crosswalk::system_test

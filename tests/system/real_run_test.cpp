@@ -155,6 +155,20 @@ TEST_F(RealRun, EveryScenarioHasNoMistakes) {
   }
 }
 
+TEST_F(RealRun, ModelCommandWritesDecksAndTheirReport) {
+  Launched model = call(
+      "crosswalk", {"model", "v2370", "--fidelity", "coarse", "--out", out("a").string()}, "model");
+  const auto status = model.wait(kLong);
+  ASSERT_TRUE(status && status->is_success()) << model.output();
+  for (const char* file : {"head_neck.k", "windshield.k"})
+    EXPECT_TRUE(fs::exists(out("a") / "model" / file)) << file;
+  const std::string report = text_of(out("a") / "model/head_neck.txt");
+  EXPECT_THAT(model.output(), HasSubstr(report));
+  for (const char* word :
+       {"\nassembly ", "[yu2020, Table A1]", " cerebrum_left ", " pia ", " windshield "})
+    EXPECT_THAT(report, HasSubstr(word));
+}
+
 TEST_F(RealRun, KeyReferenceInTheDocumentsIsCurrent) {
   Launched keys = call("crosswalk", {"keys"}, "keys");
   const auto status = keys.wait(kLong);

@@ -35,7 +35,8 @@ TEST(KeywordReader, LongFormatByKeywordAndByDeck) {
   const char* card =
       "                   1              7.8e-9               210.0                 0.3\n";
   for (const std::string head :
-       {"*MAT_ELASTIC +\n", "*MAT_ELASTIC+\n", "*KEYWORD LONG=Y\n*MAT_ELASTIC\n"})
+       {"*MAT_ELASTIC +\n", "*MAT_ELASTIC+\n", "*MAT_ELASTIC+ a remark\n",
+        "*KEYWORD LONG=Y\n*MAT_ELASTIC\n"})
     EXPECT_DOUBLE_EQ(std::get<mat::Elastic>(sound(head + card).materials[0].law).poisson, 0.3)
         << head;
   const Deck deck =

@@ -15,7 +15,8 @@ namespace crosswalk::fe {
 /// `more`: TOML laid over the scenario.
 inline FeConfig node_config(const std::string& more) {
   ConfigDocument document(source_folder() / "scenarios/tests/v2370.toml");
-  document.override_with("[output]\nfield_interval_ms = 0\n" + more, "test");
+  document.override_with("[run]\nfidelity = \"coarse\"\n[output]\nfield_interval_ms = 0\n" + more,
+                         "test");
   const Scenario scenario = read_scenario(document);
   FeConfig config = read_fe_config(document, scenario);
   config.gravity = 0;

@@ -39,14 +39,21 @@ void fetch_nodes(const ForceTiles& tiles, const StepContext& context, int call) 
   }
 }
 
+/// Corners of one call on their way from a kernel to the rows; those that no kernel fills belong to
+/// padded lanes.
+struct CornerBuffers {
+  alignas(64) double forces[kGroupsPerCall * kMostCorners * kLanes * kCornerStride] = {};
+  alignas(64) double moments[kGroupsPerCall * 4 * kLanes * kCornerStride] = {};
+};
+
 /// Forces of a tile's elements, added up in its rows.
 void tile_forces(const Model& model, const StepContext& context, const ForceTile& tile,
                  std::span<double> history, Scratch& scratch, BlockSums& sums,
                  std::vector<Scratch::Tap>& taps) {
   const ElementBlock& block = *model.blocks[tile.block];
   const bool has_moments = block.has_moments();
-  alignas(64) double forces[kGroupsPerCall * kMostCorners * kLanes * kCornerStride] = {};
-  alignas(64) double moments[kGroupsPerCall * 4 * kLanes * kCornerStride] = {};
+  static thread_local CornerBuffers buffers;
+  auto& [forces, moments] = buffers;
   double* force_rows = scratch.force_rows.data() + kCornerStride * tile.force_row;
   double* moment_rows = scratch.moment_rows.data() + kCornerStride * tile.moment_row;
   const std::size_t row_doubles = std::size_t{kCornerStride} * (tile.node_count + 1);

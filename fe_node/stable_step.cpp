@@ -113,19 +113,20 @@ AddedMass added_mass_for(const Model& model, double step) {
 double mass_scaling_step_for(const Model& model, double limit) {
   const NodalStiffness stiffness(model);
   const NodalMass own = resisting_mass(model);
-  std::vector<double> part_mass(model.mesh.parts.size(), 0.0);
-  for_each_corner(model, [&part_mass](const ElementBlock& block, int e, int) {
-    part_mass[block.part()] += block.corner_mass(e);
-  });
+  std::vector<double> allowed(model.mesh.parts.size(), 0.0);
   double total = 0;
-  for (double m : part_mass) total += m;
+  for_each_corner(model, [&](const ElementBlock& block, int e, int) {
+    const double mass = block.corner_mass(e);
+    allowed[block.part()] += (block.is_near_fluid() ? kNearFluidLimit : kPartLimit) * mass;
+    total += mass;
+  });
   for (const RigidBody& body : model.bodies) total += body.own.mass;
   for (double m : model.point_mass) total += m;
   const auto is_allowed = [&](double step) {
     const AddedMass added = added_mass_for(model, stiffness, own, step);
     double sum = 0;
-    for (std::size_t p = 0; p < part_mass.size(); ++p) {
-      if (added.parts[p] > kPartLimit * part_mass[p]) return false;
+    for (std::size_t p = 0; p < allowed.size(); ++p) {
+      if (added.parts[p] > allowed[p]) return false;
       sum += added.parts[p];
     }
     return sum <= limit * total;

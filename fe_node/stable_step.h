@@ -36,9 +36,10 @@ double step_at(double frequency_squared);
 /// The stable step at the start, s, unscaled; of a finished model with its added mass.
 double initial_stable_step(const Model& model);
 
-/// A brain floats, and weighs 4 % of its mass in its fluid: one per cent more of it changed the
-/// strain of V2370 by five (docs/head_neck_model.md, "Sizes").
-inline constexpr double kPartLimit = 0.002;
+/// Share of a part that mass scaling may add. A brain floats, and weighs 4 % of its mass in its
+/// fluid: one per cent more of it changed the strain of V2370 by five (docs/head_neck_model.md,
+/// "Sizes"), so near fluids get less.
+inline constexpr double kPartLimit = 0.01, kNearFluidLimit = 0.002;
 
 /// Mass to add so that no node needs a smaller unscaled step than `step`, s: kg and kg m2 per node,
 /// and the kg that every part is the cause of.
@@ -48,8 +49,8 @@ struct AddedMass {
 };
 AddedMass added_mass_for(const Model& model, double step);
 
-/// The largest unscaled step for which mass scaling adds at most `limit` of the whole mass and
-/// kPartLimit of any part's, s; 0: no element has one. For a model built without scaling.
+/// The largest unscaled step for which mass scaling adds at most `limit` of the whole mass and no
+/// more to any part than it may have, s; 0: no element has one. For a model built without scaling.
 double mass_scaling_step_for(const Model& model, double limit);
 
 }  // namespace crosswalk::fe

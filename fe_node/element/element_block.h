@@ -123,6 +123,8 @@ class ElementBlock {
   virtual double corner_inertia(int /*element*/) const { return 0; }
   virtual double element_volume(int element) const = 0;
   virtual double density() const = 0;
+  /// See is_near_fluid() of its law.
+  virtual bool is_near_fluid() const { return false; }
 
   /// Blocks whose elements look at their neighbours do so here, once a step before forces().
   virtual bool has_neighbours() const { return false; }

@@ -74,6 +74,7 @@ class Hex8Block final : public ElementBlock {
   }
   double element_volume(int element) const override { return shapes_.volume[element]; }
   double density() const override { return law_.density; }
+  bool is_near_fluid() const override { return fe::is_near_fluid(law_); }
 
   // Flattened: the compiler otherwise leaves lane arithmetic of so large a function in calls.
   CW_FLATTEN void forces(const StepContext& step, std::span<double> history,

@@ -126,6 +126,7 @@ class FullHexBlock final : public ElementBlock {
   }
   double element_volume(int element) const override { return volume_[element]; }
   double density() const override { return law_.density; }
+  bool is_near_fluid() const override { return fe::is_near_fluid(law_); }
   int points() const override { return kPoints; }
   bool is_alive(std::span<const double> history, int element) const override {
     return kept_.of(history, element / kWidth<N>)[kPoints][element % kWidth<N>] > 0;

@@ -63,6 +63,7 @@ class Tet4Block final : public ElementBlock {
     return groups_[element / kLanes].volume[element % kLanes];
   }
   double density() const override { return law_.density; }
+  bool is_near_fluid() const override { return fe::is_near_fluid(law_); }
   bool is_alive(std::span<const double> history, int element) const override {
     return at(history, element / kLanes)[kAlive][element % kLanes] > 0;
   }

@@ -1,5 +1,6 @@
 #include "fe_node/generate/tissues.h"
 
+#include "fe_node/element/element_controls.h"
 #include "fe_node/generate/part_ids.h"
 
 namespace crosswalk::fe::generate {
@@ -14,7 +15,7 @@ PartSpec brain(int id, const char* name, double bulk, double shear_short, double
           .law =
               mat::Viscoelastic{
                   .bulk = bulk, .shear_short = shear_short, .shear_long = shear_long, .decay = 80},
-          .section = SolidSection{.hourglass = 0.05},
+          .section = SolidSection{.hourglass = kOwnHourglass},
           .source = source,
           .grade = grade};
 }
@@ -56,7 +57,7 @@ std::vector<PartSpec> head_tissues(double brain_bulk) {
        .density = 1100,
        .law =
            mat::Viscoelastic{.bulk = 20e6, .shear_short = 1.7e6, .shear_long = 0.68e6, .decay = 20},
-       .section = SolidSection{.hourglass = 0.05},
+       .section = SolidSection{.hourglass = kOwnHourglass},
        .source = "K as GHBMC flesh; shear as scalp tests",
        .grade = Grade::Literature},
       // The density is that of the tissue; the tables' share of the bricks is taken off later.
@@ -83,7 +84,7 @@ std::vector<PartSpec> head_tissues(double brain_bulk) {
        .law =
            mat::Viscoelastic{
                .bulk = brain_bulk, .shear_short = 500, .shear_long = 500, .decay = 100},
-       .section = SolidSection{.hourglass = 0.05},
+       .section = SolidSection{.hourglass = kOwnHourglass},
        .source = "K as brain; shear modulus 0.5 kPa numerical",
        .grade = Grade::Literature},
       brain(part::kCerebrumLeft, "cerebrum_left", brain_bulk, 6e3, 1.2e3, brain_source,
@@ -101,7 +102,7 @@ std::vector<PartSpec> head_tissues(double brain_bulk) {
        .law =
            mat::Viscoelastic{
                .bulk = brain_bulk, .shear_short = 0.1e6, .shear_long = 0.1e6, .decay = 80},
-       .section = SolidSection{.hourglass = 0.05},
+       .section = SolidSection{.hourglass = kOwnHourglass},
        .source = "spinal cord, E 0.3 MPa; fills the foramen magnum",
        .grade = Grade::Literature},
       membrane(part::kDura, "dura", 1130, 31.5e6, 1.0e-3, "E 31.5 MPa, 1 mm, as in most models"),

@@ -44,6 +44,13 @@ struct SolidAnswer {
   N alive = constant<N>(1);  ///< 0 once failed: the element then carries nothing
 };
 
+/// Brain, CSF: matter that gives way to shear a thousand times more than to pressure. What floats
+/// in such matter weighs next to nothing there, so a little mass more decides how it moves.
+template <class Law>
+bool is_near_fluid(const Law& law) {
+  return law.shear_modulus() < 1e-3 * law.bulk_modulus();
+}
+
 /// L at the middle of the step, F_rate (F - dt/2 F_rate)^-1: exactly skew under a finite rigid
 /// rotation.
 template <class N>

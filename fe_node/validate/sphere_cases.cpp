@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/units.h"
+#include "fe_node/element/element_controls.h"
 #include "fe_node/generate/primitives.h"
 #include "fe_node/generate/tissues.h"
 #include "fe_node/output/tissue_metrics.h"
@@ -43,7 +44,7 @@ generate::ModelDraft ball_in_shell(int n, double bulk) {
        .law =
            mat::Viscoelastic{
                .bulk = bulk, .shear_short = kShearShort, .shear_long = kShearLong, .decay = kDecay},
-       .section = generate::SolidSection{.hourglass = 0.05},
+       .section = generate::SolidSection{.hourglass = kOwnHourglass},
        .source = "",
        .grade = generate::Grade::Literature},
       {.id = kShell,

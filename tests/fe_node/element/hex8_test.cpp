@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "fe_node/element/hex8_full.h"
 #include "fe_node/solver.h"
 #include "tests/fe_node/box_model.h"
 
@@ -115,6 +116,32 @@ TEST(Hex8, ForcesAreTheSlopeOfTheEnergy) {
       state.nodes[n].x[i] = kept;
       EXPECT_NEAR(force[n][i], -(up - down) / (2 * h), 1e-3);  // forces are of order 1e5 N
     }
+}
+
+// u_x = a eta zeta strains a cube at its points but not on average, and changes no volume. Eight
+// points find mu |grad u|^2 / 2 = (8 / 3) mu side a^2 / 2.
+TEST(Hex8, OwnHourglassIsTheEnergyOfABilinearMode) {
+  constexpr double kSide = 0.01, kAmplitude = 1e-6, kShear = 6e3;
+  const Elastic soft = Elastic::from_young(1040, 3 * kShear, 0.49999);
+  const auto energy = [&](Model model) {
+    model.finish();
+    State state = initial_state(model);
+    for (NodeRecord& node : state.nodes) {
+      const Vec3 natural = node.position() * (2 / kSide) - Vec3::Ones();
+      node.x[0] += kAmplitude * natural.y() * natural.z();
+    }
+    Scratch scratch(model, 1);
+    compute_forces(model, state, scratch);
+    return state.energies.internal + state.energies.hourglass_stored;
+  };
+  const Box box{1, 1, 1, Vec3::Constant(kSide)};
+  Model full;
+  full.mesh = box_mesh(box);
+  full.blocks.push_back(make_full_hex8_block(full.mesh, 0, {0}, soft, {}));
+  const double exact = 4.0 / 3 * kShear * kSide * kAmplitude * kAmplitude;
+  EXPECT_NEAR(energy(std::move(full)) / exact, 1, 1e-3);
+  EXPECT_NEAR(energy(box_model(box, soft, {HourglassForm::Stiffness, kOwnHourglass})) / exact, 1,
+              1e-3);
 }
 
 TEST(Hex8, StableStepOfACubeIsTheElementBound) {

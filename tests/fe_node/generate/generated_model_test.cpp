@@ -3,6 +3,7 @@
 // solver.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -44,6 +45,33 @@ TEST(GeneratedModel, ShapeOfMediumCellsCostsLittleOfTheStep) {
   options.mass_scaling_step = 0;
   BuiltModel built = build_model(generate::generate_head_neck(spec), options);
   EXPECT_GT(mass_scaling_step_for(built.model, 0.01), 1.0e-6);
+}
+
+TEST(GeneratedModel, MassScalingSparesWhatFloats) {
+  for (const double bulk : {generate::kBrainBulk, generate::kWaterBulk}) {
+    generate::HeadNeckSpec spec;
+    spec.brain_bulk = bulk;
+    BuildOptions options;
+    options.mass_scaling_step = 0;
+    const BuiltModel built = build_model(generate::generate_head_neck(spec), options);
+    const double step = mass_scaling_step_for(built.model, 0.01);
+    const AddedMass added = added_mass_for(built.model, step);
+    std::map<std::string, double> mass, share;
+    for (const auto& block : built.model.blocks)
+      for (int e = 0; e < block->element_count(); ++e)
+        mass[built.model.mesh.parts[block->part()].name] +=
+            block->corners() * block->corner_mass(e);
+    for (std::size_t p = 0; p < added.parts.size(); ++p) {
+      const std::string& name = built.model.mesh.parts[p].name;
+      if (mass[name] > 0) share[name] = added.parts[p] / mass[name];
+    }
+    const bool is_water = bulk == generate::kWaterBulk;
+    // One part is at its limit, the others below theirs.
+    EXPECT_NEAR(share[is_water ? "csf" : "diploe"], is_water ? kNearFluidLimit : kPartLimit, 1e-5);
+    for (const char* name : {"csf", "cerebrum_left", "cerebellum_left", "brainstem", "cord"})
+      EXPECT_LT(share[name], kNearFluidLimit + 1e-6) << name;
+    for (const auto& [name, value] : share) EXPECT_LT(value, kPartLimit + 1e-6) << name;
+  }
 }
 
 TEST(GeneratedModel, IsTheSameInOtherUnits) {

@@ -195,6 +195,10 @@ NodeCommand model_command() {
           ignore_tables_of_others(document, "fe_node");
           const FeConfig config = read_fe_config(document, read_scenario(document));
           document.finish();
+          if (!config.head_neck.is_generated)
+            throw UserError(Problem{Place{args->scenario}, "head_neck.deck", "`generate`",
+                                    config.head_neck.deck.string(),
+                                    "`crosswalk check` reports a deck of your own"});
           const NodeModel model = build_node_model(config, args->folder);
           std::cout << model.report << fmt::format("\ndecks: {}/model\n", args->folder);
           return ExitCode::Done;

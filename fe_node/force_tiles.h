@@ -62,13 +62,6 @@ inline Vec3 sum_of_rows(const NodeRows& table, const double* rows, int node) {
   return sum.head<3>();
 }
 
-/// Brings the rows of a node into the cache; past the last node it does nothing.
-inline void fetch_rows(const NodeRows& table, const double* rows, int node, int node_count) {
-  if (node >= node_count) return;
-  for (int k = table.begin[node]; k < table.begin[node + 1]; ++k)
-    __builtin_prefetch(rows + std::size_t{kCornerStride} * table.row[k]);
-}
-
 /// Sum of the stiffnesses that came with them.
 inline double stiffness_of_rows(const NodeRows& table, const double* rows, int node) {
   double sum = 0;

@@ -12,8 +12,6 @@ namespace crosswalk::fe {
 namespace {
 
 constexpr int kNodesPerChunk = Scratch::kNodesPerChunk;
-/// The rows of a node lie apart; they are fetched so many nodes before their turn.
-constexpr int kNodesAhead = 8;
 
 void forget_loads(Scratch& scratch) {
   for (int n : scratch.loaded) scratch.applied[n].setZero();
@@ -204,7 +202,6 @@ void integrate(const Model& model, State& state, Scratch& scratch, const Kick& k
     double kinetic = 0, gravity_work = 0, damped = 0;
     const int last = std::min((c + 1) * kNodesPerChunk, node_count);
     for (int n = c * kNodesPerChunk; n < last; ++n) {
-      fetch_rows(model.tiles.force_rows, scratch.force_rows.data(), n + kNodesAhead, node_count);
       NodeRecord& node = state.nodes[n];
       const bool is_constrained = scratch.is_constrained[n];
       if (node.inverse_mass > 0) {

@@ -10,8 +10,8 @@ enum class HourglassForm {
 };
 
 /// With this coefficient the stiffness form gives a cube of an incompressible solid the energy that
-/// shear has in its bilinear modes, the integral of mu |grad u|^2 / 2 (and twice that of the
-/// trilinear one): no more and no less than eight points would.
+/// shear has in its bilinear modes, the integral of mu |grad u|^2 / 2, as eight points would; the
+/// trilinear one gets twice its own.
 inline constexpr double kOwnHourglass = 2.0 / 9;
 
 /// What an element's own arithmetic is done in, and its history kept in.

@@ -22,8 +22,8 @@ constexpr std::int64_t kWindow = 20'000;  // ns
 ConfigDocument flight(double mb_step, const std::string& precision) {
   ConfigDocument document(source_folder() / "scenarios/tests/v2370.toml");
   document.override_with(
-      fmt::format("[run]\nfidelity = \"coarse\"\n[posture]\nwalking_speed_m_s = 5.0\nspin_x_rad_s "
-                  "= 12.0\nspin_y_rad_s = 4.0\n"
+      fmt::format("[run]\nfidelity = \"coarse\"\n"
+                  "[posture]\nwalking_speed_m_s = 5.0\nspin_x_rad_s = 12.0\nspin_y_rad_s = 4.0\n"
                   "spin_z_rad_s = 15.0\n[vehicle]\nspeed_km_h = 0.0\ngap_mm = 900.0\n"
                   "[windshield]\nmodel = \"rigid\"\n[environment]\ngravity_m_s2 = 0.0\n"
                   "[output]\nfield_interval_ms = 0\n[multibody]\nsubstep_us = {}\n"

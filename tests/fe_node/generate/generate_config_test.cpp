@@ -36,9 +36,8 @@ TEST(GenerateConfig, DefaultsAreLiteraturePassive) {
 TEST(GenerateConfig, MeasuredHeadInUserUnits) {
   ConfigDocument document = ConfigDocument::from_text(
       "[head_neck]\nmass = \"measured\"\nhead_mass_g = 4100\n"
-      "head_moments_kg_m2 = [0.018, 0.020, 0.014]\nbrain_bulk_GPa = 2.19\n[windshield]\nmodel = "
-      "\"laminated\"\ncell_mm = "
-      "5\n",
+      "head_moments_kg_m2 = [0.018, 0.020, 0.014]\nbrain_bulk_GPa = 2.19\n"
+      "[windshield]\nmodel = \"laminated\"\ncell_mm = 5\n",
       "test.toml");
   const HeadNeckSpec spec =
       read_head_neck_spec(document.root().table("head_neck", ""), man(), Fidelity::Medium);

@@ -76,7 +76,7 @@ double memory_rate(int threads) {
 /// and of the nodes' own update.
 double bytes_per_element(const Workload& work, Precision precision) {
   const Model& model = work.model;
-  const double shape = precision == Precision::Double ? 368 : 184;
+  const double shape = precision == Precision::Double ? 332 : 166;
   double bytes = 0;
   for (std::size_t b = 0; b < model.blocks.size(); ++b) {
     if (model.sleeper && model.sleeper->blocks[b]) continue;

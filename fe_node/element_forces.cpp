@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include "common/error.h"
 
@@ -102,24 +103,46 @@ double nodal_stable_step(const Model& model, const State& state, const Scratch& 
   return step_at(largest);
 }
 
+/// Gives every thread as many tiles, by cost, in one piece: neighbours of the nodes it moves.
+void share_out_tiles(const Model& model, bool asleep, Scratch& scratch) {
+  const std::vector<ForceTile>& tiles = model.tiles.tiles;
+  const auto cost = [&](const ForceTile& tile) {
+    return asleep && model.sleeper->blocks[tile.block] ? 0 : tile.cost;
+  };
+  double total = 0, done = 0;
+  for (const ForceTile& tile : tiles) total += cost(tile);
+  int t = 0;
+  for (int k = 0; k < scratch.threads; ++k) {
+    scratch.queues[k].next = t;
+    const double until = total * (k + 1) / scratch.threads;
+    while (t < static_cast<int>(tiles.size()) && (done < until || k + 1 == scratch.threads))
+      done += cost(tiles[t++]);
+    scratch.queues[k].end = t;
+  }
+}
+
 }  // namespace
 
 void element_forces(const Model& model, State& state, Scratch& scratch) {
   const StepContext context{state.nodes,   state.spin,         state.time,
                             state.last_dt, wants_limit(state), scratch.threads};
-  const int count = static_cast<int>(model.tiles.tiles.size());
   const bool asleep = is_asleep(model, state);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     if (model.blocks[b]->has_neighbours() && !(asleep && model.sleeper->blocks[b]))
       model.blocks[b]->prepare(context, state.history[b]);
-      // Shared out as threads come: elements differ in cost, and every tile has rows of its own.
-#pragma omp parallel for schedule(dynamic) num_threads(scratch.threads)
-  for (int t = 0; t < count; ++t) {
+  share_out_tiles(model, asleep, scratch);
+  const auto compute = [&](int t) {
     const ForceTile& tile = model.tiles.tiles[t];
     scratch.tile_sums[t] = BlockSums{};
-    if (asleep && model.sleeper->blocks[tile.block]) continue;
+    if (asleep && model.sleeper->blocks[tile.block]) return;
     tile_forces(model, context, tile, state.history[tile.block], scratch, scratch.tile_sums[t],
                 scratch.taps[t]);
+  };
+  // Whoever has done its own tiles helps the next thread: every tile has rows of its own.
+#pragma omp parallel num_threads(scratch.threads)
+  for (int k = 0; k < scratch.threads; ++k) {
+    Scratch::TileQueue& queue = scratch.queues[(omp_get_thread_num() + k) % scratch.threads];
+    for (int t = queue.next++; t < queue.end; t = queue.next++) compute(t);
   }
 }
 

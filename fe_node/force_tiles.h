@@ -4,7 +4,9 @@
 // The elements of a block are cut into tiles of neighbours in their order. One thread adds all
 // corners of a tile into the tile's own rows, one per node it touches, which stay in the nearest
 // cache meanwhile; afterwards every node adds its rows in the order of the tiles. Most nodes lie
-// inside one tile, so about 1.6 rows a brick travel through memory instead of eight corners.
+// inside one tile, so about 1.6 rows a brick travel through memory instead of eight corners. Tiles
+// of all blocks go in the order of their nodes, so that those at one place are near each other in
+// time, and a thread that works on nodes works on their tiles.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +28,7 @@ struct ForceTile {
   std::size_t force_row = 0;           ///< its first row among the force rows
   std::size_t moment_row = 0;          ///< likewise, of blocks with moments
   int call = 0;                        ///< number of its first call
+  double cost = 0;                     ///< visits of the law
 };
 
 /// The rows of every node, in the order they are added.

@@ -3,6 +3,9 @@
 
 #include <omp.h>
 #include <unistd.h>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 #include "common/node_main.h"
 #include "common/solver_node.h"
@@ -30,11 +33,22 @@ void settle_runtime(char** argv) {
   execv("/proc/self/exe", argv);
 }
 
+/// Numbers below the smallest normal one (1e-38 in single precision) count as zero, in this thread
+/// and those it starts: on some processors each costs a hundred cycles, and a pane just touched is
+/// full of them.
+void flush_denormal_numbers() {
+#ifdef __SSE__
+  constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
+  _mm_setcsr(_mm_getcsr() | kFlushToZero | kDenormalsAreZero);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace crosswalk;
   settle_runtime(argv);
+  flush_denormal_numbers();
   return node_main(
       argc, argv,
       {.name = "fe_node",

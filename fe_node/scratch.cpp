@@ -5,7 +5,8 @@
 
 namespace crosswalk::fe {
 
-Scratch::Scratch(const Model& model, int thread_count) : threads(thread_count) {
+Scratch::Scratch(const Model& model, int thread_count)
+    : threads(thread_count), queues(thread_count) {
   const std::size_t tile_count = model.tiles.tiles.size();
   tile_sums.resize(tile_count);
   taps.resize(tile_count);

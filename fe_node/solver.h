@@ -2,6 +2,7 @@
 // [belytschko2014, 6.2]. A step is a visible list; nothing in it allocates.
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct Scratch {
   std::pair<int, int> add_tap(const Model& model, int block, int element, int corner);
 
   int threads = 1;
+  /// Tiles [next, end) that a thread has still to do, or others when they have done theirs.
+  struct alignas(64) TileQueue {
+    std::atomic<int> next = 0;
+    int end = 0;
+  };
+  std::vector<TileQueue> queues;  ///< per thread
   std::vector<BlockSums> tile_sums;
   std::vector<BlockSums> block_sums;
   LaneVector force_rows, moment_rows;  ///< see force_tiles.h

@@ -29,11 +29,13 @@ void LaneSums<N>::book(BlockSums& sums) const {
   sums.hourglass_dissipated += sum(hourglass_dissipated);
   sums.viscous_dissipated += sum(viscous_dissipated);
   sums.failed += static_cast<int>(sum(failed) + 0.5);
+  if (sum(largest_rate) == 0) return;
   for (int lane = 0; lane < kWidth<N>; ++lane) {
+    if (critical_pack[lane] < 0) continue;
     const double step = 2 / std::sqrt(largest_rate[lane]);
     const int element = static_cast<int>(critical_pack[lane]) * kWidth<N> + lane;
     const bool is_first = step == sums.least_step && element < sums.critical_element;
-    if (critical_pack[lane] < 0 || !(step < sums.least_step || is_first)) continue;
+    if (!(step < sums.least_step || is_first)) continue;
     sums.least_step = step;
     sums.critical_element = element;
   }

@@ -13,8 +13,7 @@ constexpr double kXi[8] = {-1, 1, 1, -1, -1, 1, 1, -1};
 constexpr double kEta[8] = {-1, -1, 1, 1, -1, -1, 1, 1};
 constexpr double kZeta[8] = {-1, -1, -1, -1, 1, 1, 1, 1};
 
-HexReference<double> reference_of(const Vec3 (&x)[8]) {
-  HexReference<double> ref;
+void set_reference(const Vec3 (&x)[8], HexReference<double>& ref, HexMetric<double>& bound) {
   Vec3 B[8];
   hex8_volume_gradient(x, B);
   const double volume = hex8_volume(x);
@@ -36,8 +35,8 @@ HexReference<double> reference_of(const Vec3 (&x)[8]) {
   }
   const double entries[6] = {metric(0, 0), metric(1, 1), metric(2, 2),
                              metric(0, 1), metric(1, 2), metric(2, 0)};
-  std::copy_n(entries, 6, ref.metric);
-  return ref;
+  std::copy_n(entries, 6, bound.entries);
+  ref.hourglass_scale = volume * metric.trace() / 8;
 }
 
 }  // namespace
@@ -76,15 +75,19 @@ template <class N>
 HexShapes<N> make_hex_shapes(const ElementBlock& block, const Mesh& mesh) {
   HexShapes<N> shapes;
   shapes.packs.resize(block.group_count() / kGroupsPerPack<N>);
+  shapes.metrics.resize(shapes.packs.size());
   shapes.volume.resize(block.element_count());
   for (int slot = 0; slot < block.group_count() * kLanes; ++slot) {
     Vec3 x[8];
     for (int corner = 0; corner < 8; ++corner)
       x[corner] = mesh.position[block.node(slot / kLanes, corner, slot % kLanes)];
-    const HexReference<double> ref = reference_of(x);
+    HexReference<double> ref;
+    HexMetric<double> metric;
+    set_reference(x, ref, metric);
     CW_ASSERT(ref.volume > 0);  // the model builder refuses such elements with their place
     if (slot < block.element_count()) shapes.volume[slot] = ref.volume;
     set_lane(ref, slot % kWidth<N>, shapes.packs[slot / kWidth<N>]);
+    set_lane(metric, slot % kWidth<N>, shapes.metrics[slot / kWidth<N>]);
   }
   return shapes;
 }

@@ -12,6 +12,7 @@ namespace crosswalk::fe {
 template <class N>
 struct HexShapes {
   std::vector<HexReference<N>, Eigen::aligned_allocator<HexReference<N>>> packs;
+  std::vector<HexMetric<N>, Eigen::aligned_allocator<HexMetric<N>>> metrics;
   std::vector<double> volume;  ///< m3 per element
 };
 template <class N>
@@ -84,12 +85,12 @@ class Hex8Block final : public ElementBlock {
     decltype(auto) law = ready_law(law_, step.dt);
     for (int group = first; group < last; group += kGroupsPerPack<N>) {
       const int pack = group / kGroupsPerPack<N>;
-      if (pack + 1 < pack_count()) fetch_ahead(pack + 1);
       HexNodes<N> nodes;
       load_corners(step.nodes, group_nodes(group), nodes.x, nodes.v);
       const HexReference<N>& shape = shapes_.packs[pack];
-      const HexAnswer<N> answer = hex8_forces(shape, nodes, law, controls_, step.dt,
-                                              kept_.of(history, pack), step.wants_stable_step);
+      const HexAnswer<N> answer =
+          hex8_forces(shape, shapes_.metrics[pack], nodes, law, controls_, step.dt,
+                      kept_.of(history, pack), step.wants_stable_step);
       store_corner_forces(answer, corner_forces.data() + corner_slot(group - first, 0, 0));
       add_to_sums(answer, N((law_.density / 8.0) * shape.volume), lane_mask<N>(pack), step, pack,
                   element_count(), lanes, sums);
@@ -104,7 +105,7 @@ class Hex8Block final : public ElementBlock {
   }
 
   double initial_stiffness(int element) const override {
-    const N per_volume = hex_stiffness_at_rest(shapes_.packs[element / kWidth<N>].metric,
+    const N per_volume = hex_stiffness_at_rest(shapes_.metrics[element / kWidth<N>].entries,
                                                law_.bulk_modulus(), law_.shear_modulus());
     return element_volume(element) * per_volume[element % kWidth<N>];
   }
@@ -140,11 +141,6 @@ class Hex8Block final : public ElementBlock {
 
  private:
   int pack_count() const { return group_count() / kGroupsPerPack<N>; }
-  /// Shapes cross pages, where the processor's own prefetching stops.
-  void fetch_ahead(int pack) const {
-    const auto* shape = reinterpret_cast<const char*>(&shapes_.packs[pack]);
-    for (std::size_t i = 0; i < sizeof(HexReference<N>); i += 64) __builtin_prefetch(shape + i);
-  }
 
   Law law_;
   ElementControls controls_;

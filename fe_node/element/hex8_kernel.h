@@ -13,8 +13,14 @@ struct HexReference {
   N volume;          ///< m3
   N inverse_volume;
   N hourglass[4][3];  ///< h_a . X, m
-  N metric[6];        ///< sum_I b_I b_I^T with b = B / V (xx yy zz xy yz zx), 1/m2
+  N hourglass_scale;  ///< V tr(metric) / 8, m: the stiffness of a mode over coefficient and modulus
   N length;           ///< cube root of the volume, m
+};
+
+/// What only the bound of the stiffness asks for: sum_I b_I b_I^T with b = B / V, 1/m2.
+template <class N>
+struct HexMetric {
+  N entries[6];  ///< xx yy zz xy yz zx
 };
 
 template <class N>
@@ -152,9 +158,9 @@ void rest_where_failed(const N& alive, Tensor<N>& F, Tensor<N>& F_rate) {
 }
 
 template <class N, class Law>
-HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, const Law& law,
-                         const ElementControls& controls, double dt, N* history,
-                         bool wants_stiffness) {
+HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexMetric<N>& metric,
+                         const HexNodes<N>& nodes, const Law& law, const ElementControls& controls,
+                         double dt, N* history, bool wants_stiffness) {
   SolidStep<N> step;
   step.dt = dt;
   step.F = gradient_of(ref, nodes.x);
@@ -185,7 +191,7 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
   answer.stiffness = constant<N>(0);
   if (wants_stiffness)
     answer.stiffness = ref.volume *
-                       hex_stiffness(ref.metric, step.F_inverse, step.J, material.bulk_modulus,
+                       hex_stiffness(metric.entries, step.F_inverse, step.J, material.bulk_modulus,
                                      material.shear_modulus) *
                        stiffening_by_viscosity(compression, viscous_speed, wave_speed);
 
@@ -194,11 +200,10 @@ HexAnswer<N> hex8_forces(const HexReference<N>& ref, const HexNodes<N>& nodes, c
   const bool is_viscous = controls.hourglass == HourglassForm::Viscous;
   const bool is_controlled = controls.hourglass != HourglassForm::None;
   const Tensor<N>& field = is_viscous ? step.F_rate : step.F;
-  const N factor = is_viscous
-                       ? N((0.25 * controls.hourglass_coefficient * law.density) * ref.length *
-                           ref.length * wave_speed)
-                       : N((0.125 * controls.hourglass_coefficient) * material.shear_modulus *
-                           ref.volume * (ref.metric[0] + ref.metric[1] + ref.metric[2]));
+  const N factor =
+      is_viscous ? N((0.25 * controls.hourglass_coefficient * law.density) * ref.length *
+                     ref.length * wave_speed)
+                 : N(controls.hourglass_coefficient * material.shear_modulus * ref.hourglass_scale);
   N sum = constant<N>(0);
   for (int i = 0; i < 3; ++i) {
     N load[8], P[3] = {material.P(i, 0), material.P(i, 1), material.P(i, 2)};

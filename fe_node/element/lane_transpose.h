@@ -1,5 +1,14 @@
 // Between one-record-per-node memory and lanes: records become component lanes and back, by a
 // transpose in registers where the processor has one, else by plain copies; all give the same bits.
+//
+//   load_corners         positions and velocities of the corners of the elements in one register.
+//                        `index`: their nodes, kLanes of each corner, group after group. Single
+//                        lanes are counted from the first corner, in double until then: an element
+//                        asks for nothing else, and nothing is lost of what near numbers differ by.
+//   load_corner_vectors  one vector a node, likewise
+//   store_corner         a corner's vector and the stiffness that goes with it, four doubles an
+//                        element. `to`: the place in the first group, aligned like Lanes;
+//                        `group_stride`: doubles from there to the next group's.
 #pragma once
 
 #include <span>
@@ -19,6 +28,14 @@ inline constexpr int kCornerStride = 4;
 /// Place of the stiffness among them.
 inline constexpr int kCornerStiffness = 3;
 
+}  // namespace crosswalk::fe
+
+#ifdef __AVX512F__
+#include "fe_node/element/lane_transpose_avx512.h"
+#else
+
+namespace crosswalk::fe {
+
 /// The first three numbers of four or eight rows of doubles, as lanes. Rows of kWidth doubles may
 /// be read: four, or three where nothing may follow the third.
 template <int kWidth, class RowOf>
@@ -29,26 +46,12 @@ void load_rows(RowOf row_of, Lanes& x, Lanes& y, Lanes& z) {
     if constexpr (kWidth == 4) return _mm256_load_pd(row);
     return _mm256_maskload_pd(row, _mm256_setr_epi64x(-1, -1, -1, 0));
   };
-  __m256d part[kLanes / 4][3];
-  for (int half = 0; half < kLanes / 4; ++half) {
-    const __m256d a = four(4 * half), b = four(4 * half + 1), c = four(4 * half + 2),
-                  d = four(4 * half + 3);
-    const __m256d ab = _mm256_unpacklo_pd(a, b), cd = _mm256_unpacklo_pd(c, d);
-    part[half][0] = _mm256_permute2f128_pd(ab, cd, 0x20);
-    part[half][1] =
-        _mm256_permute2f128_pd(_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d), 0x20);
-    part[half][2] = _mm256_permute2f128_pd(ab, cd, 0x31);
-  }
-  const auto whole = [&part](int axis) -> DoubleRegister {
-#ifdef __AVX512F__
-    return _mm512_insertf64x4(_mm512_castpd256_pd512(part[0][axis]), part[1][axis], 1);
-#else
-    return part[0][axis];
-#endif
-  };
-  x = whole(0);
-  y = whole(1);
-  z = whole(2);
+  const __m256d a = four(0), b = four(1), c = four(2), d = four(3);
+  const __m256d ab = _mm256_unpacklo_pd(a, b), cd = _mm256_unpacklo_pd(c, d);
+  x = DoubleRegister(_mm256_permute2f128_pd(ab, cd, 0x20));
+  y = DoubleRegister(
+      _mm256_permute2f128_pd(_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d), 0x20));
+  z = DoubleRegister(_mm256_permute2f128_pd(ab, cd, 0x31));
 #else
   for (int lane = 0; lane < kLanes; ++lane) {
     const double* row = row_of(lane);
@@ -61,11 +64,7 @@ void load_rows(RowOf row_of, Lanes& x, Lanes& y, Lanes& z) {
 
 /// Two registers of doubles rounded into one.
 inline SingleLanes joined(const Lanes& first, const Lanes& second) {
-#if defined(__AVX512F__)
-  return SingleRegister(_mm512_castpd_ps(
-      _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_castps_pd(_mm512_cvtpd_ps(first.v))),
-                         _mm256_castps_pd(_mm512_cvtpd_ps(second.v)), 1)));
-#elif defined(__AVX__)
+#ifdef __AVX__
   return SingleRegister(_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(first.v)),
                                              _mm256_cvtpd_ps(second.v), 1));
 #else
@@ -84,36 +83,19 @@ template <class RowOf, class OriginOf>
 void load_differences(RowOf row_of, OriginOf origin_of, SingleLanes& x, SingleLanes& y,
                       SingleLanes& z) {
 #ifdef __AVX__
-  constexpr int kEights = kWidth<SingleLanes> / 8;
   const auto difference = [&](int lane) {
     return _mm256_cvtpd_ps(
         _mm256_sub_pd(_mm256_load_pd(row_of(lane)), _mm256_load_pd(origin_of(lane))));
   };
-  __m256 part[kEights][3];
-  for (int eight = 0; eight < kEights; ++eight) {
-    __m256 rows[4];  // of lanes k and k + 4
-    for (int k = 0; k < 4; ++k)
-      rows[k] = _mm256_insertf128_ps(_mm256_castps128_ps256(difference(8 * eight + k)),
-                                     difference(8 * eight + k + 4), 1);
-    const __m256 xy01 = _mm256_unpacklo_ps(rows[0], rows[1]),
-                 xy23 = _mm256_unpacklo_ps(rows[2], rows[3]);
-    part[eight][0] = _mm256_shuffle_ps(xy01, xy23, 0x44);
-    part[eight][1] = _mm256_shuffle_ps(xy01, xy23, 0xee);
-    part[eight][2] = _mm256_shuffle_ps(_mm256_unpackhi_ps(rows[0], rows[1]),
-                                       _mm256_unpackhi_ps(rows[2], rows[3]), 0x44);
-  }
-  const auto whole = [&part](int axis) -> SingleRegister {
-#ifdef __AVX512F__
-    return _mm512_castpd_ps(
-        _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_castps_pd(part[0][axis])),
-                           _mm256_castps_pd(part[1][axis]), 1));
-#else
-    return part[0][axis];
-#endif
-  };
-  x = whole(0);
-  y = whole(1);
-  z = whole(2);
+  __m256 rows[4];  // of lanes k and k + 4
+  for (int k = 0; k < 4; ++k)
+    rows[k] = _mm256_insertf128_ps(_mm256_castps128_ps256(difference(k)), difference(k + 4), 1);
+  const __m256 xy01 = _mm256_unpacklo_ps(rows[0], rows[1]),
+               xy23 = _mm256_unpacklo_ps(rows[2], rows[3]);
+  x = SingleRegister(_mm256_shuffle_ps(xy01, xy23, 0x44));
+  y = SingleRegister(_mm256_shuffle_ps(xy01, xy23, 0xee));
+  z = SingleRegister(_mm256_shuffle_ps(_mm256_unpackhi_ps(rows[0], rows[1]),
+                                       _mm256_unpackhi_ps(rows[2], rows[3]), 0x44));
 #else
   for (int lane = 0; lane < kWidth<SingleLanes>; ++lane) {
     const double *row = row_of(lane), *origin = origin_of(lane);
@@ -124,22 +106,15 @@ void load_differences(RowOf row_of, OriginOf origin_of, SingleLanes& x, SingleLa
 #endif
 }
 
-inline void load_positions(std::span<const NodeRecord> nodes, const int* index, Lanes (&x)[3]) {
-  load_rows<4>([&](int lane) { return nodes[index[lane]].x; }, x[0], x[1], x[2]);
-}
-inline void load_velocities(std::span<const NodeRecord> nodes, const int* index, Lanes (&v)[3]) {
-  load_rows<4>([&](int lane) { return nodes[index[lane]].v; }, v[0], v[1], v[2]);
-}
-
-/// Positions and velocities of the corners of the elements in one register. `index`: their nodes,
-/// kLanes of each corner, group after group. Single lanes are counted from the first corner, which
-/// changes nothing that an element asks of them.
 template <int kCorners>
 void load_corners(std::span<const NodeRecord> nodes, const int* index, Lanes (&x)[kCorners][3],
                   Lanes (&v)[kCorners][3]) {
   for (int corner = 0; corner < kCorners; ++corner) {
-    load_positions(nodes, index + corner * kLanes, x[corner]);
-    load_velocities(nodes, index + corner * kLanes, v[corner]);
+    const auto node = [&](int lane) -> const NodeRecord& {
+      return nodes[index[corner * kLanes + lane]];
+    };
+    load_rows<4>([&](int lane) { return node(lane).x; }, x[corner][0], x[corner][1], x[corner][2]);
+    load_rows<4>([&](int lane) { return node(lane).v; }, v[corner][0], v[corner][1], v[corner][2]);
   }
 }
 template <int kCorners>
@@ -158,7 +133,6 @@ void load_corners(std::span<const NodeRecord> nodes, const int* index,
                      v[corner][2]);
   }
 }
-/// The vectors of the corners of the elements in one register, as load_corners().
 template <int kCorners>
 void load_corner_vectors(std::span<const Vec3> vectors, const int* index, Lanes (&a)[kCorners][3]) {
   for (int corner = 0; corner < kCorners; ++corner)
@@ -175,30 +149,16 @@ void load_corner_vectors(std::span<const Vec3> vectors, const int* index,
     for (int i = 0; i < 3; ++i) a[corner][i] = joined(first[corner][i], second[corner][i]);
 }
 
-/// Writes one corner of the elements in one register: a vector and the stiffness that goes with it.
-/// `to`: the corner's first double in their first group, aligned like Lanes; `group_stride`:
-/// doubles from there to the next group's.
 inline void store_corner(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& stiffness,
                          double* to, std::size_t /*group_stride*/) {
 #ifdef __AVX__
-  for (int half = 0; half < kLanes / 4; ++half) {
-#ifdef __AVX512F__
-    const auto part = [half](const Lanes& a) -> __m256d {
-      return half == 0 ? _mm512_castpd512_pd256(a.v) : _mm512_extractf64x4_pd(a.v, 1);
-    };
-#else
-    const auto part = [](const Lanes& a) -> __m256d { return a.v; };
-#endif
-    const __m256d xy0 = _mm256_unpacklo_pd(part(x), part(y)),
-                  xy1 = _mm256_unpackhi_pd(part(x), part(y)),
-                  z0 = _mm256_unpacklo_pd(part(z), part(stiffness)),
-                  z1 = _mm256_unpackhi_pd(part(z), part(stiffness));
-    double* row = to + 4 * half * kCornerStride;
-    _mm256_store_pd(row, _mm256_permute2f128_pd(xy0, z0, 0x20));
-    _mm256_store_pd(row + kCornerStride, _mm256_permute2f128_pd(xy1, z1, 0x20));
-    _mm256_store_pd(row + 2 * kCornerStride, _mm256_permute2f128_pd(xy0, z0, 0x31));
-    _mm256_store_pd(row + 3 * kCornerStride, _mm256_permute2f128_pd(xy1, z1, 0x31));
-  }
+  const __m256d xy0 = _mm256_unpacklo_pd(x.v, y.v), xy1 = _mm256_unpackhi_pd(x.v, y.v),
+                z0 = _mm256_unpacklo_pd(z.v, stiffness.v),
+                z1 = _mm256_unpackhi_pd(z.v, stiffness.v);
+  _mm256_store_pd(to, _mm256_permute2f128_pd(xy0, z0, 0x20));
+  _mm256_store_pd(to + kCornerStride, _mm256_permute2f128_pd(xy1, z1, 0x20));
+  _mm256_store_pd(to + 2 * kCornerStride, _mm256_permute2f128_pd(xy0, z0, 0x31));
+  _mm256_store_pd(to + 3 * kCornerStride, _mm256_permute2f128_pd(xy1, z1, 0x31));
 #else
   for (int lane = 0; lane < kLanes; ++lane) {
     to[lane * kCornerStride] = x[lane];
@@ -212,30 +172,16 @@ inline void store_corner(const Lanes& x, const Lanes& y, const Lanes& z, const L
 inline void store_corner(const SingleLanes& x, const SingleLanes& y, const SingleLanes& z,
                          const SingleLanes& stiffness, double* to, std::size_t group_stride) {
 #ifdef __AVX__
-  for (int eight = 0; eight < kWidth<SingleLanes> / 8; ++eight) {
-#ifdef __AVX512F__
-    const auto part = [eight](const SingleLanes& a) -> __m256 {
-      const __m512d whole = _mm512_castps_pd(a.v);
-      return _mm256_castpd_ps(eight == 0 ? _mm512_castpd512_pd256(whole)
-                                         : _mm512_extractf64x4_pd(whole, 1));
-    };
-#else
-    const auto part = [](const SingleLanes& a) -> __m256 { return a.v; };
-#endif
-    const __m256 xy01 = _mm256_unpacklo_ps(part(x), part(y)),
-                 xy23 = _mm256_unpackhi_ps(part(x), part(y)),
-                 z01 = _mm256_unpacklo_ps(part(z), part(stiffness)),
-                 z23 = _mm256_unpackhi_ps(part(z), part(stiffness));
-    const __m256 rows[4] = {// of lanes k and k + 4
-                            _mm256_shuffle_ps(xy01, z01, 0x44), _mm256_shuffle_ps(xy01, z01, 0xee),
-                            _mm256_shuffle_ps(xy23, z23, 0x44), _mm256_shuffle_ps(xy23, z23, 0xee)};
-    const auto place = [&](int lane) {
-      return to + lane / kLanes * group_stride + std::size_t(lane % kLanes) * kCornerStride;
-    };
-    for (int k = 0; k < 4; ++k) {
-      _mm256_store_pd(place(8 * eight + k), _mm256_cvtps_pd(_mm256_castps256_ps128(rows[k])));
-      _mm256_store_pd(place(8 * eight + k + 4), _mm256_cvtps_pd(_mm256_extractf128_ps(rows[k], 1)));
-    }
+  const __m256 xy01 = _mm256_unpacklo_ps(x.v, y.v), xy23 = _mm256_unpackhi_ps(x.v, y.v),
+               z01 = _mm256_unpacklo_ps(z.v, stiffness.v),
+               z23 = _mm256_unpackhi_ps(z.v, stiffness.v);
+  const __m256 rows[4] = {// of lanes k and k + 4
+                          _mm256_shuffle_ps(xy01, z01, 0x44), _mm256_shuffle_ps(xy01, z01, 0xee),
+                          _mm256_shuffle_ps(xy23, z23, 0x44), _mm256_shuffle_ps(xy23, z23, 0xee)};
+  for (int k = 0; k < 4; ++k) {
+    double* row = to + k * kCornerStride;
+    _mm256_store_pd(row, _mm256_cvtps_pd(_mm256_castps256_ps128(rows[k])));
+    _mm256_store_pd(row + group_stride, _mm256_cvtps_pd(_mm256_extractf128_ps(rows[k], 1)));
   }
 #else
   for (int lane = 0; lane < kWidth<SingleLanes>; ++lane) {
@@ -249,5 +195,7 @@ inline void store_corner(const SingleLanes& x, const SingleLanes& y, const Singl
 }
 
 }  // namespace crosswalk::fe
+
+#endif
 
 #pragma GCC diagnostic pop

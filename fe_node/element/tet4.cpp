@@ -178,10 +178,7 @@ void Tet4Block<Law>::number_nodes(const Mesh& mesh) {
 template <class Law>
 TetNodes Tet4Block<Law>::load(const StepContext& step, int group) const {
   TetNodes out;
-  for (int c = 0; c < 4; ++c) {
-    load_positions(step.nodes, group_nodes(group) + c * kLanes, out.x[c]);
-    load_velocities(step.nodes, group_nodes(group) + c * kLanes, out.v[c]);
-  }
+  load_corners(step.nodes, group_nodes(group), out.x, out.v);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "fe_node/element/hex8_block.h"
 #include "fe_node/element/hex8_points.h"
 #include "fe_node/element/pack_history.h"
+#include "fe_node/material/volume_law.h"
 
 namespace crosswalk::fe {
 namespace {
@@ -81,23 +82,33 @@ void set_references(const Vec3 (&x)[8], FullHexReference<double>& ref,
   ref.length = std::cbrt(ref.volume);
 }
 
-/// The bounds of the points add up: the deviator's by the gradients at each, the volume's by the
-/// mean ones, as the averaging of the dilation only lowers it. N/m.
+/// The bounds of the points add up: the deviator's and that of uneven dilation by the gradients at
+/// each, the volume's by the mean ones, as the averaging of the dilation only lowers it. N/m.
 template <class N>
 N point_stiffness(const FullHexReference<N>& ref, const BoundReference<N>& bound, int q,
-                  const Tensor<N>& F_inverse, const N& J, const N& bulk, const N& shear) {
-  const N of_shear = hex_stiffness(bound.metric[q], F_inverse, J, N(shear * (2.0 / 3)), shear);
+                  const Tensor<N>& F_inverse, const N& J, const N& bulk, const N& shear,
+                  const N& uneven_bulk) {
+  const N of_shear =
+      hex_stiffness(bound.metric[q], F_inverse, J, N(shear * (2.0 / 3) + uneven_bulk), shear);
   const N of_volume = hex_stiffness(bound.mean_metric, F_inverse, J, bulk, constant<N>(0));
   return ref.points[q].volume * (of_shear + of_volume);
 }
 
 double stiffness_at_rest(const FullHexReference<double>& ref, const BoundReference<double>& bound,
-                         double bulk, double shear) {
+                         double bulk, double shear, double uneven_bulk) {
   const Tensor<double> identity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   double sum = 0;
   for (int q = 0; q < kPoints; ++q)
-    sum += point_stiffness(ref, bound, q, identity, 1.0, bulk, shear);
+    sum += point_stiffness(ref, bound, q, identity, 1.0, bulk, shear, uneven_bulk);
   return sum;
+}
+
+/// Bulk modulus against uneven dilation, see hex8_full.h. Pa.
+template <class Law>
+double uneven_bulk_of(const Law& law) {
+  if constexpr (requires { Law::kIsochoricShear; })
+    return bulk_from_poisson(law.shear_modulus(), 0.45);
+  return 0;
 }
 
 template <class N, class Law>
@@ -108,6 +119,7 @@ class FullHexBlock final : public ElementBlock {
       : ElementBlock(mesh, ElementKind::Hex8, part, std::move(elements), kGroupsPerPack<N>),
         law_(law),
         controls_(controls),
+        uneven_bulk_(uneven_bulk_of(law)),
         kept_(history_size()) {
     set_packs(mesh);
   }
@@ -147,6 +159,7 @@ class FullHexBlock final : public ElementBlock {
 
   Law law_;
   ElementControls controls_;
+  double uneven_bulk_;  ///< Pa
   PackHistory<N> kept_;
   std::vector<FullHexReference<N>, Eigen::aligned_allocator<FullHexReference<N>>> packs_;
   std::vector<BoundReference<N>, Eigen::aligned_allocator<BoundReference<N>>> bounds_;
@@ -167,7 +180,8 @@ void FullHexBlock<N, Law>::set_packs(const Mesh& mesh) {
     set_references(x, ref, bound);
     if (slot < element_count()) {
       volume_[slot] = ref.volume;
-      stiffness_[slot] = stiffness_at_rest(ref, bound, law_.bulk_modulus(), law_.shear_modulus());
+      stiffness_[slot] =
+          stiffness_at_rest(ref, bound, law_.bulk_modulus(), law_.shear_modulus(), uneven_bulk_);
     }
     set_lane(ref, slot % kWidth<N>, packs_[slot / kWidth<N>]);
     set_lane(bound, slot % kWidth<N>, bounds_[slot / kWidth<N>]);
@@ -207,6 +221,7 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
 
     Symmetric<N> tau[kPoints];
     N mean_p = constant<N>(0), alive = h[kPoints], bulk = constant<N>(0), shear = constant<N>(0);
+    N uneven_p[kPoints];
     answer.energy = answer.stiffness = constant<N>(0);
     for (int q = 0; q < kPoints; ++q) {
       const N scale = dilation_scale(mean_J, J[q]);
@@ -216,14 +231,19 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
       tau[q] = kirchhoff_stress(material.P, bar.F);
       const N third = trace(tau[q]) * (1.0 / 3.0);
       add_pressure(tau[q], N(-third));
-      mean_p += ref.points[q].volume * third;
+      const N unevenness = J[q] / mean_J;
+      uneven_p[q] = (0.5 * uneven_bulk_) * (unevenness * unevenness - 1.0);
+      mean_p += ref.points[q].volume * (third - uneven_p[q]);
       alive = smaller(alive, material.alive);
-      answer.energy += ref.points[q].volume * material.energy;
+      answer.energy += ref.points[q].volume *
+                       (material.energy + (0.5 * uneven_bulk_) * volume_energy(unevenness));
       bulk = larger(bulk, material.bulk_modulus);
       shear = larger(shear, material.shear_modulus);
       if (step.wants_stable_step)
-        answer.stiffness += point_stiffness(ref, bounds_[pack], q, F_inverse[q], J[q],
-                                            material.bulk_modulus, material.shear_modulus);
+        answer.stiffness +=
+            point_stiffness(ref, bounds_[pack], q, F_inverse[q], J[q], material.bulk_modulus,
+                            material.shear_modulus,
+                            N((0.5 * uneven_bulk_) * (1.0 + unevenness * unevenness) / J[q]));
     }
     mean_p *= ref.inverse_volume / mean_J;
     h[kPoints] = alive;
@@ -238,7 +258,7 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
       for (N& f : corner) f = constant<N>(0);
     for (int q = 0; q < kPoints; ++q) {
       const PointReference<N>& point = ref.points[q];
-      add_pressure(tau[q], N((mean_p - q_mean / mean_J) * J[q]));
+      add_pressure(tau[q], N(uneven_p[q] + (mean_p - q_mean / mean_J) * J[q]));
       const Tensor<N> P = pulled_back(tau[q], F_inverse[q]);
       const N factor = point.volume * alive;
       Tensor<N>& conjugate = F[q];  // to the local derivatives; F has done its work
@@ -294,7 +314,10 @@ ElementSample FullHexBlock<N, Law>::sample(const StepContext& step, std::span<co
     stress << s.xx[lane], s.xy[lane], s.zx[lane], s.xy[lane], s.yy[lane], s.yz[lane], s.zx[lane],
         s.yz[lane], s.zz[lane];
     out.stress += share * stress;
-    out.energy += ref.points[q].volume[lane] * material.energy[lane];
+    out.energy +=
+        ref.points[q].volume[lane] *
+        (material.energy[lane] +
+         0.5 * uneven_bulk_ * volume_energy(static_cast<double>(J[q][lane] / mean_J[lane])));
     for (int k = 0; k < 9; ++k) out.deformation(k / 3, k % 3) += share * F[q](k / 3, k % 3)[lane];
     if constexpr (requires { Law::kPlasticStrain; })
       out.plastic_strain = std::max(out.plastic_strain, h[Law::kPlasticStrain][lane]);

@@ -1,4 +1,4 @@
-// The sweep below the head: face block and neck flesh on one structured grid.
+// The sweep below the head: face block and neck flesh on one structured grid, and the neck's skin.
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +29,7 @@ class Sweep {
         for (int a = 0; a <= strip_.rows; ++a)
           if (is_used(a, b, c)) grid_.at(a, b, c) = node(a, b, c);
     add_cells(draft_, grid_, [this](int a, int b, int c) { return part_of(a, b, c); });
+    add_skin();
     return collect();
   }
 
@@ -147,6 +148,24 @@ class Sweep {
     Vec3 p = shape_.face_outline(shape_.face_height(z), depth, 2.0 * b / strip_.columns - 1, back);
     p.z() = z;
     return p;
+  }
+
+  /// On the outer faces of the flesh: back, both sides and, below the chin, the throat.
+  void add_skin() {
+    for (int c = 0; c < levels_; ++c) {
+      const auto add = [&](int a, int b, int next_a, int next_b) {
+        draft_.quads.push_back({{grid_.at(a, b, c), grid_.at(next_a, next_b, c),
+                                 grid_.at(next_a, next_b, c + 1), grid_.at(a, b, c + 1)},
+                                part::kNeckSkin});
+      };
+      const int front = c < chin_ ? throat_row_ : strip_.face_row;
+      for (int b = 0; b < strip_.columns; ++b) {
+        add(0, b, 0, b + 1);
+        if (c < chin_) add(front, b, front, b + 1);
+      }
+      for (int a = 0; a < front; ++a)
+        for (const int b : {0, strip_.columns}) add(a, b, a + 1, b);
+    }
   }
 
   FaceAndFlesh collect() const {

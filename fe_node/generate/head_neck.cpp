@@ -123,7 +123,8 @@ class Assembly {
                        .section = [&](double z) { return section(z); }};
     mark_skull_base(mesh, head, shape_, result_.landmarks.condyles - tragion, spine_[C0].part);
     add_tables(mesh, head, shape_);
-    add_membranes(mesh, head, shape_);
+    // The petrous bones are of the rigid skull base.
+    mesh.attach(spine_[C0].part, add_membranes(mesh, head, shape_));
     flesh_ = add_face_and_flesh(mesh, head, shape_, plan);
     skull_fit_ = on_bone(mesh, head.skull_inner, spine_[C0].part);
     skull_outer_ = on_bone(mesh, head.skull_outer, spine_[C0].part);
@@ -166,11 +167,14 @@ class Assembly {
     }
   }
 
-  /// Deep flesh follows the nearest vertebra, the lowest ring the torso block.
+  /// Deep flesh behind the middle of the vertebral bodies, where the processes are that muscles
+  /// hang on, follows the nearest vertebra; the throat before them glides. The lowest ring follows
+  /// the torso block.
   void attach_flesh() {
     MeshDraft& mesh = draft().mesh;
     for (const int id : flesh_.channel_wall) {
       const double z = mesh.nodes[id].z();
+      if (mesh.nodes[id].x() > spine_line(spine_, z)) continue;
       int best = C1;
       for (int level = C2; level <= T2; ++level)
         if (std::abs(spine_.bodies[level].X_NB.p.z() - z) <
@@ -190,7 +194,7 @@ class Assembly {
     head_parts_.insert(head_parts_.end(), skull.begin(), skull.end());
     head_parts_.insert(head_parts_.end(),
                        {kCsf, kCord, kDura, kPia, kFalx, kTentorium, kScalp, kFace});
-    neck_parts_ = {kFlesh};
+    neck_parts_ = {kFlesh, kNeckSkin};
     for (const PartSpec& p : draft().parts)
       if ((p.id >= kFirstVertebra && p.id < 4000) && p.id != kFirstVertebra - 10)
         neck_parts_.push_back(p.id);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "fe_node/generate/part_ids.h"
 #include "fe_node/generate/skull.h"
@@ -90,9 +91,26 @@ void add_surface(MeshDraft& draft, const CubedSphere& sphere, const std::vector<
   }
 }
 
+/// Nodes on the edges of a part that only one of its quads has and that run from side to side,
+/// `least_y` m or more from the mid-plane.
+std::vector<int> free_cross_edges(const MeshDraft& draft, int part, double least_y) {
+  std::map<std::pair<int, int>, int> count;
+  for (const Quad& quad : draft.quads)
+    for (int c = 0; quad.part == part && c < 4; ++c)
+      ++count[std::minmax(quad.node[c], quad.node[(c + 1) % 4])];
+  std::set<int> nodes;
+  for (const auto& [edge, quads] : count) {
+    const Vec3 &a = draft.nodes[edge.first], &b = draft.nodes[edge.second];
+    const Vec3 along = (b - a).cwiseAbs(), middle = 0.5 * (a + b);
+    if (quads == 1 && along.y() > along.x() && std::abs(middle.y()) > least_y)
+      nodes.insert({edge.first, edge.second});
+  }
+  return {nodes.begin(), nodes.end()};
+}
+
 }  // namespace
 
-void add_membranes(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape) {
+std::vector<int> add_membranes(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape) {
   add_surface(draft, head.sphere, head.brain_surface, part::kPia, [](int) { return true; });
   // The spinal dura goes on from the rim of the foramen and spans nothing.
   const std::vector<int> skull = skull_parts(draft, head);
@@ -120,6 +138,10 @@ void add_membranes(MeshDraft& draft, const HeadMesh& head, const HeadShape& shap
     if (std::abs(q.y()) < kNotchHalfWidth) return q.x() < kNotchBack;
     return q.x() < kTentoriumFront;
   });
+  std::vector<int> edge = free_cross_edges(draft, part::kTentorium, kNotchHalfWidth * scale.y());
+  const std::set<int> on_skull(head.skull_inner.begin(), head.skull_inner.end());
+  std::erase_if(edge, [&](int id) { return on_skull.contains(id); });
+  return edge;
 }
 
 }  // namespace crosswalk::fe::generate

@@ -3,14 +3,18 @@
 //
 // The falx lies in the mid-plane in the outer 45 % of the brain and reaches through the CSF to the
 // skull; its lower edge is free above the callosum. The tentorium follows the brick faces between
-// cerebrum and cerebellum and leaves a notch for the brainstem. Outlines are estimates [E].
+// cerebrum and cerebellum and leaves a notch for the brainstem; the petrous bones hold its front
+// edge beside the notch. Outlines are estimates [E].
 #pragma once
+
+#include <vector>
 
 #include "fe_node/generate/head_mesh.h"
 
 namespace crosswalk::fe::generate {
 
-/// Adds the quads to a draft that holds the cranium and its tables and nothing else.
-void add_membranes(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape);
+/// Adds the quads to a draft that holds the cranium and its tables and nothing else. Returns the
+/// nodes of the tentorium's front edge beside the notch, short of the skull.
+std::vector<int> add_membranes(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape);
 
 }  // namespace crosswalk::fe::generate

@@ -28,6 +28,7 @@ inline constexpr int kFirstFibre = 4100;  ///< of the annulus; + 10 per disc, + 
 inline constexpr int kFirstNucleus = 4190;
 inline constexpr int kFirstMuscle = 5000;
 inline constexpr int kFlesh = 6000;
+inline constexpr int kNeckSkin = 6001;  ///< that of the head is in the scalp
 inline constexpr int kBlockTorsoUp = 7001;
 inline constexpr int kBlockClavicleLeft = 7002;
 inline constexpr int kBlockClavicleRight = 7003;

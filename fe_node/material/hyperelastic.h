@@ -23,6 +23,7 @@ inline double bulk_from_poisson(double shear_modulus, double poisson_ratio) {
 
 /// What both laws share: the overstress and the volume.
 struct RubberBase {
+  static constexpr bool kIsochoricShear = true;
   double density = 0;
   double bulk = 0;               ///< Pa
   Viscoelastic overstress = {};  ///< terms only; no long-term modulus, no bulk

@@ -15,6 +15,7 @@
 namespace crosswalk::fe {
 
 struct Viscoelastic {
+  static constexpr bool kIsochoricShear = true;
   static constexpr int kMaxTerms = 12;
   struct Term {
     double shear_modulus = 0;  ///< Pa

@@ -14,6 +14,7 @@ namespace part = generate::part;
 namespace {
 
 bool is_muscle(int id) { return id >= part::kFirstMuscle && id < part::kFlesh; }
+bool is_flesh(int id) { return id == part::kFlesh || id == part::kNeckSkin; }
 bool is_block(int id) {
   return id == part::kBlockTorsoUp || id == part::kBlockClavicleLeft ||
          id == part::kBlockClavicleRight;
@@ -42,7 +43,7 @@ generate::ModelDraft ligamentous_spine(const generate::HeadNeck& whole) {
   std::vector<int> parts;
   for (const generate::PartSpec& spec : whole.draft.parts) {
     const bool of_head = std::find(head.begin(), head.end(), spec.id) != head.end();
-    if (is_muscle(spec.id) || spec.id == part::kFlesh) continue;
+    if (is_muscle(spec.id) || is_flesh(spec.id)) continue;
     if (is_block(spec.id) && spec.id != part::kBlockTorsoUp) continue;
     if (!of_head || spec.id == rigid_skull_part()) parts.push_back(spec.id);
   }
@@ -105,9 +106,9 @@ std::array<double, kBearers> energy_by_bearer(const DeckRun& run) {
   const auto& blocks = run.model().blocks;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const int id = run.model().mesh.parts[blocks[b]->part()].id.value;
-    if (id < part::kFirstDisc || id > part::kFlesh) continue;
+    if (id < part::kFirstDisc || id > part::kNeckSkin) continue;
     Bearer bearer = Bearer::Disc;  // ground, fibres, nucleus
-    if (id == part::kFlesh)
+    if (is_flesh(id))
       bearer = Bearer::Flesh;
     else if (id >= part::kFirstMuscle)
       bearer = Bearer::Muscle;

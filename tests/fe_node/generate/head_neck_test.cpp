@@ -143,6 +143,47 @@ TEST(HeadNeck, MembranesLieWhereTheyBelong) {
   EXPECT_NEAR(moment, 0, 1e-9);
 }
 
+TEST(HeadNeck, PetrousBonesHoldTheTentoriumsFrontEdge) {
+  const HeadNeck model = build_head_neck(untrimmed());
+  const std::vector<Vec3>& x = model.draft.mesh.nodes;
+  std::set<int> of_tentorium;
+  for (const Quad& q : model.draft.mesh.quads)
+    if (q.part == part::kTentorium) of_tentorium.insert(q.node.begin(), q.node.end());
+  Vec3 sum = Vec3::Zero();
+  int held = 0;
+  for (const RigidAttachment& a : model.draft.mesh.attachments)
+    for (const int n : a.nodes) {
+      if (!of_tentorium.contains(n)) continue;
+      EXPECT_EQ(a.part, part::kFirstVertebra - 10);
+      const Vec3 from_tragion = x[n] - model.landmarks.tragion;
+      EXPECT_GT(std::abs(from_tragion.y()), 0.02);
+      EXPECT_NEAR(from_tragion.x(), -0.016, 0.010);  // one coarse cell
+      sum += from_tragion;
+      ++held;
+    }
+  EXPECT_GE(held, 6);
+  EXPECT_NEAR(sum.y(), 0, 1e-9);
+}
+
+TEST(HeadNeck, SkinCoversTheNeck) {
+  const HeadNeck model = build_head_neck(untrimmed());
+  std::set<int> of_flesh;
+  for (const Hex& h : model.draft.mesh.hexes)
+    if (h.part == part::kFlesh) of_flesh.insert(h.node.begin(), h.node.end());
+  double furthest_back = 1, furthest_front = -1;
+  for (const Quad& q : model.draft.mesh.quads)
+    if (q.part == part::kNeckSkin)
+      for (const int n : q.node) {
+        EXPECT_TRUE(of_flesh.contains(n));
+        furthest_back = std::min(furthest_back, model.draft.mesh.nodes[n].x());
+        furthest_front = std::max(furthest_front, model.draft.mesh.nodes[n].x());
+      }
+  // A tube of 0.39 m round the neck and 0.08 (throat) to 0.15 m (nape) long, wider below.
+  EXPECT_GT(area_of(model, part::kNeckSkin), 0.39 * 0.08);
+  EXPECT_LT(area_of(model, part::kNeckSkin), 0.39 * 0.15);
+  EXPECT_GT(furthest_front - furthest_back, 0.10);
+}
+
 TEST(HeadNeck, SkullWeighsWhatItsTissuesDo) {
   const HeadNeck model = build_head_neck(untrimmed());
   const auto mass = [&](std::vector<int> parts) {

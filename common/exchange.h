@@ -129,6 +129,7 @@ struct TissueSample {
   struct Region {
     double mps_max = 0, mps_95 = 0, mps_95_so_far = 0, csdm_15 = 0, csdm_25 = 0;
     double pressure_min = 0, pressure_max = 0, von_mises_95 = 0;  ///< Pa, pressure + in compression
+    double inside_out = 0;  ///< volume share of bricks with a corner inside out
   };
   std::vector<Region> regions;  ///< order named in the node description
 };

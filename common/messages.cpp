@@ -346,6 +346,7 @@ msg::tissue_strain to_message(const TissueSample& sample) {
     m.pressure_min[i] = static_cast<float>(r.pressure_min);
     m.pressure_max[i] = static_cast<float>(r.pressure_max);
     m.von_mises_95[i] = static_cast<float>(r.von_mises_95);
+    m.inside_out[i] = static_cast<float>(r.inside_out);
   }
   return m;
 }

@@ -254,7 +254,8 @@ void FeNode::publish(const WindowId& id, RecordSink& sink) {
   };
   const bool tissue_due = is_due(run_.next_tissue_ns, config_.tissue_interval);
   if (is_due(run_.next_strain_ns, config_.strain_interval) || tissue_due) {
-    const TissueSample tissue = tissue_.sample(node_.built.model, run_.state, end_ns, run_.peaks);
+    const TissueSample tissue =
+        tissue_.sample(node_.built.model, run_.state, end_ns, run_.peaks, threads_);
     if (tissue_due) sink.tissue(tissue);
   }
   if (fields_ && is_due(run_.next_field_ns, config_.field_interval)) {

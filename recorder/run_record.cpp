@@ -181,6 +181,7 @@ void RecordBuilder::Impl::take(const msg::tissue_strain& m) {
     r.pressure_min = static_cast<double>(m.pressure_min[i]);
     r.pressure_max = static_cast<double>(m.pressure_max[i]);
     r.von_mises_95 = static_cast<double>(m.von_mises_95[i]);
+    r.inside_out = static_cast<double>(m.inside_out[i]);
     sample.regions.push_back(r);
   }
   record.tissue[m.t_ns] = std::move(sample);

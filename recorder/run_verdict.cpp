@@ -196,7 +196,11 @@ void add_quality(Rows& rows, const Summary& s) {
     add_limited(rows, "Finite-element energy balance", s.fe->balance_percent, 2, "%",
                 "Energy unaccounted for, of the peak.");
     add_limited(rows, "Hourglass energy", s.fe->hourglass_percent, 10, "%",
-                "Artificial share of the internal energy.");
+                "In modes that one-point elements do not feel, of the internal energy.");
+    if (!s.tissue.empty())
+      add_limited(rows, "Brain inside out", 100 * s.tissue.front().inside_out,
+                  kInsideOutLimitPercent, "%",
+                  "Largest share of the brain's bricks with a corner turned inside out at once.");
     if (s.fe->added_mass_percent) {
       add_limited(rows, "Added mass", *s.fe->added_mass_percent, 2, "%", "By mass scaling.");
     }

@@ -105,6 +105,7 @@ std::vector<RegionPeak> tissue_of(const RunRecord& record, double t0) {
       p.von_mises_95 = std::max(p.von_mises_95, r.von_mises_95);
       p.pressure_max = std::max(p.pressure_max, r.pressure_max);
       p.pressure_min = std::min(p.pressure_min, r.pressure_min);
+      p.inside_out = std::max(p.inside_out, r.inside_out);
     }
   }
   return peaks;
@@ -134,6 +135,9 @@ void warn_limits(Summary& s) {
   limit("hourglass energy", s.fe->hourglass_percent, kHourglassLimitPercent);
   if (s.fe->added_mass_percent)
     limit("added mass", *s.fe->added_mass_percent, kAddedMassLimitPercent);
+  for (const RegionPeak& p : s.tissue)
+    limit(("share of " + p.region + " with corners inside out").c_str(), 100 * p.inside_out,
+          kInsideOutLimitPercent);
 }
 
 std::string outcome_of(const RunRecord& record) {

@@ -47,7 +47,11 @@ struct RegionPeak {
   double mps_max = 0, mps_95 = 0, mps_95_time = 0;  ///< largest value of any instant; s after t0
   double mps_95_so_far = 0;                         ///< 95th percentile of the element maxima
   double csdm_15 = 0, csdm_25 = 0, von_mises_95 = 0, pressure_max = 0, pressure_min = 0;
+  double inside_out = 0;  ///< largest volume share of bricks with a corner inside out
 };
+
+/// Percent of a region's volume: a fifth of what its 95th percentile leaves above it.
+inline constexpr double kInsideOutLimitPercent = 1;
 
 struct Timing {
   double wall = 0, windows = 0, mb = 0, fe = 0;  ///< s; differ from run to run

@@ -110,7 +110,8 @@ ordered_json tissue_block(const Summary& s) {
                      {"CSDM_0.25", p.csdm_25},
                      {"von_mises_95_Pa", p.von_mises_95},
                      {"pressure_max_Pa", p.pressure_max},
-                     {"pressure_min_Pa", p.pressure_min}};
+                     {"pressure_min_Pa", p.pressure_min},
+                     {"inside_out_percent", 100 * p.inside_out}};
   }
   return out;
 }

@@ -147,6 +147,11 @@ void quality_rows(Table& t, const Summary& s) {
           "limit 2 %");
     t.row("hourglass energy", fmt::format("{:.2f} %", s.fe->hourglass_percent),
           "of internal energy, limit 10 %");
+    if (!s.tissue.empty())
+      t.row(s.tissue.front().region + " inside out",
+            fmt::format("{:.2f} %", 100 * s.tissue.front().inside_out),
+            fmt::format("largest share of bricks with a corner so, limit {:g} %",
+                        kInsideOutLimitPercent));
     t.row("added mass", fmt::format("{:.1f} g", 1e3 * s.fe->added_mass),
           s.fe->added_mass_percent ? fmt::format("{:.2f} %, limit 2 %", *s.fe->added_mass_percent)
                                    : "");

@@ -13,6 +13,17 @@ double first_principal_strain(const Mat3& F) {
   return solver.eigenvalues()[2];
 }
 
+bool has_corner_inside_out(const Vec3 (&x)[8]) {
+  for (int face = 0; face < 8; face += 4)
+    for (int c = 0; c < 4; ++c) {
+      const Vec3 &here = x[face + c], &next = x[face + (c + 1) % 4], &last = x[face + (c + 3) % 4],
+                 &across = x[(face + c + 4) % 8];
+      const double spanned = (next - here).cross(last - here).dot(across - here);
+      if ((face == 0 ? spanned : -spanned) < 0) return true;
+    }
+  return false;
+}
+
 double volume_quantile(std::vector<std::pair<double, double>> value_and_volume, double q) {
   if (value_and_volume.empty()) return 0;
   std::sort(value_and_volume.begin(), value_and_volume.end());
@@ -49,28 +60,33 @@ TissueMetrics::TissueMetrics(const Model& model, const std::vector<TissueRegion>
 }
 
 TissueSample TissueMetrics::sample(const Model& model, const State& state, std::int64_t t_ns,
-                                   StrainPeaks& peaks) const {
+                                   StrainPeaks& peaks, int threads) const {
   const StepContext context{state.nodes, state.spin, state.time, 0, false};
   struct Value {
     double strain, pressure, von_mises;
+    bool is_inside_out;
   };
-  std::vector<Value> values;
-  values.reserve(elements_.size());
-  for (std::size_t i = 0; i < elements_.size(); ++i) {
+  const int count = static_cast<int>(elements_.size());
+  std::vector<Value> values(count);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (int i = 0; i < count; ++i) {
     const Observed& o = elements_[i];
-    const ElementSample s =
-        model.blocks[o.block]->sample(context, state.history[o.block], o.element);
+    const ElementBlock& block = *model.blocks[o.block];
+    const ElementSample s = block.sample(context, state.history[o.block], o.element);
     const Mat3 deviator = s.stress - s.stress.trace() / 3 * Mat3::Identity();
-    values.push_back({first_principal_strain(s.deformation), -s.stress.trace() / 3,
-                      std::sqrt(1.5) * deviator.norm()});
-    peaks[i] = std::max(peaks[i], values.back().strain);
+    Vec3 x[8];
+    for (int c = 0; c < 8; ++c)
+      x[c] = state.nodes[block.node(o.element / kLanes, c, o.element % kLanes)].position();
+    values[i] = {first_principal_strain(s.deformation), -s.stress.trace() / 3,
+                 std::sqrt(1.5) * deviator.norm(), has_corner_inside_out(x)};
+    peaks[i] = std::max(peaks[i], values[i].strain);
   }
   TissueSample sample;
   sample.t_ns = t_ns;
   for (const std::vector<int>& members : members_) {
     TissueSample::Region region;
     std::vector<std::pair<double, double>> strain, peak, stress;
-    double total = 0, above_15 = 0, above_25 = 0;
+    double total = 0, above_15 = 0, above_25 = 0, inside_out = 0;
     if (!members.empty())
       region.pressure_min = region.pressure_max = values[members.front()].pressure;
     for (int i : members) {
@@ -84,6 +100,7 @@ TissueSample TissueMetrics::sample(const Model& model, const State& state, std::
       total += volume;
       if (peaks[i] > 0.15) above_15 += volume;
       if (peaks[i] > 0.25) above_25 += volume;
+      if (values[i].is_inside_out) inside_out += volume;
     }
     region.mps_95 = volume_quantile(std::move(strain), 0.95);
     region.mps_95_so_far = volume_quantile(std::move(peak), 0.95);
@@ -91,6 +108,7 @@ TissueSample TissueMetrics::sample(const Model& model, const State& state, std::
     if (total > 0) {
       region.csdm_15 = above_15 / total;
       region.csdm_25 = above_25 / total;
+      region.inside_out = inside_out / total;
     }
     sample.regions.push_back(region);
   }

@@ -1,5 +1,7 @@
 // Strain metrics of brain tissue. MPS: first principal Green-Lagrange strain at the element's
 // point; CSDM(x): volume share of elements whose MPS ever exceeded x; pressure is -tr sigma / 3.
+// One-point bricks can turn a corner inside out and show no sign of it at their point, so their
+// share is told as well: strains of a region that has many are not to be trusted.
 #pragma once
 
 #include <string>
@@ -26,8 +28,8 @@ class TissueMetrics {
 
   StrainPeaks no_peaks() const { return StrainPeaks(elements_.size(), 0.0); }
   /// Samples all observed elements, raises the peaks and tells the present values.
-  TissueSample sample(const Model& model, const State& state, std::int64_t t_ns,
-                      StrainPeaks& peaks) const;
+  TissueSample sample(const Model& model, const State& state, std::int64_t t_ns, StrainPeaks& peaks,
+                      int threads = 1) const;
   const std::vector<std::string>& names() const { return names_; }
 
  private:
@@ -40,6 +42,8 @@ class TissueMetrics {
   std::vector<std::vector<int>> members_;  ///< per region, indices into elements_
 };
 
+/// Whether the edges at some corner of a brick span a negative volume.
+bool has_corner_inside_out(const Vec3 (&x)[8]);
 /// Largest principal Green-Lagrange strain of F.
 double first_principal_strain(const Mat3& F);
 /// Value below which the volume share q lies, 0 < q <= 1.

@@ -59,12 +59,14 @@ TEST(Summary, WarnsWhereALimitIsBroken) {
   RunRecord record = synthetic_record();
   record.audit.rbegin()->second.drift = 0.05 * record.audit.rbegin()->second.exchanged;
   record.fe.rbegin()->second.hourglass = record.fe.rbegin()->second.internal;
+  record.tissue.begin()->second.regions[0].inside_out = 0.03;
   const Summary s = summary_of(record);
   std::string all;
   for (const std::string& warning : s.warnings) all += warning + "\n";
   EXPECT_THAT(all, HasSubstr("interface audit drift is 5.00 %"));
   EXPECT_THAT(all, HasSubstr("hourglass energy is 100.00 %"));
   EXPECT_THAT(all, HasSubstr("finite-element energy balance error"));
+  EXPECT_THAT(all, HasSubstr("share of cerebrum with corners inside out is 3.00 %"));
 }
 
 TEST(Summary, SaysThatARecordIsIncomplete) {

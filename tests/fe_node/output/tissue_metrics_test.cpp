@@ -100,6 +100,22 @@ TEST(TissueMetrics, PeaksStayAndTheDamageMeasureCountsTheirVolume) {
   EXPECT_NEAR(relaxed.csdm_25, 0.1, 1e-12);
 }
 
+// Two of ten equal bricks share the edge whose node is pushed through them; their mean volume stays
+// positive, so no stress tells.
+TEST(TissueMetrics, CountsBricksWithACornerInsideOut) {
+  const Model model = tissue_box({10, 1, 1, {0.1, 0.01, 0.01}});
+  StrainPeaks peaks;
+  EXPECT_EQ(sample(model, stretch(0.5, 1.4, 1.4), peaks).regions[0].inside_out, 0);
+  for (int threads : {1, 2}) {
+    State state = initial_state(model);
+    for (NodeRecord& node : state.nodes)
+      if ((node.position() - Vec3(0.05, 0.01, 0.01)).norm() < 1e-9)
+        node.set_position({0.05, -0.001, 0.01});
+    const TissueMetrics metrics(model, {{"brain", {0}}});
+    EXPECT_NEAR(metrics.sample(model, state, 0, peaks, threads).regions[0].inside_out, 0.2, 1e-12);
+  }
+}
+
 TEST(TissueMetrics, OtherPartsAreNotObserved) {
   Model model = tissue_box({2, 1, 1, {2, 1, 1}});
   const TissueMetrics metrics(model, {{"nothing", {}}, {"brain", {0}}});

@@ -19,6 +19,22 @@ std::vector<Vec3> forces_at(const Model& model, State& state) {
   return nodal_forces(model, scratch);
 }
 
+/// Central differences of energy() over steps of `h` at every node against minus the force there.
+template <class Energy>
+void expect_slope(State& state, const std::vector<Vec3>& force, Energy energy, double h,
+                  double tolerance) {
+  for (std::size_t n = 0; n < state.nodes.size(); ++n)
+    for (int i = 0; i < 3; ++i) {
+      const double kept = state.nodes[n].x[i];
+      state.nodes[n].x[i] = kept + h;
+      const double up = energy();
+      state.nodes[n].x[i] = kept - h;
+      const double down = energy();
+      state.nodes[n].x[i] = kept;
+      EXPECT_NEAR(force[n][i], -(up - down) / (2 * h), tolerance);
+    }
+}
+
 TEST(Hex8, VolumeOfAWarpedBrickIsExact) {
   // A brick whose top face is twisted: volume by the divergence theorem over trilinear faces is the
   // box's own, since opposite changes cancel.
@@ -105,17 +121,7 @@ TEST(Hex8, ForcesAreTheSlopeOfTheEnergy) {
     compute_forces(model, state, scratch);
     return state.energies.internal + state.energies.hourglass_stored;
   };
-  const double h = 1e-6;
-  for (std::size_t n = 0; n < state.nodes.size(); ++n)
-    for (int i = 0; i < 3; ++i) {
-      const double kept = state.nodes[n].x[i];
-      state.nodes[n].x[i] = kept + h;
-      const double up = energy();
-      state.nodes[n].x[i] = kept - h;
-      const double down = energy();
-      state.nodes[n].x[i] = kept;
-      EXPECT_NEAR(force[n][i], -(up - down) / (2 * h), 1e-3);  // forces are of order 1e5 N
-    }
+  expect_slope(state, force, energy, 1e-6, 1e-3);  // forces are of order 1e5 N
 }
 
 // Corner 0 of a cube of tissue is pushed in along the diagonal and corner 6 drawn out as far, which
@@ -154,17 +160,8 @@ TEST_F(UnevenBrick, ForcesAreTheSlopeOfTheEnergy) {
   const std::vector<Vec3> force = forces_at(model_, state_);
   double largest = 0;
   for (const Vec3& f : force) largest = std::max(largest, f.norm());
-  const double h = 1e-7;
-  for (std::size_t n = 0; n < state_.nodes.size(); ++n)
-    for (int i = 0; i < 3; ++i) {
-      const double kept = state_.nodes[n].x[i];
-      state_.nodes[n].x[i] = kept + h;
-      const double up = energy();
-      state_.nodes[n].x[i] = kept - h;
-      const double down = energy();
-      state_.nodes[n].x[i] = kept;
-      EXPECT_NEAR(force[n][i], -(up - down) / (2 * h), 1e-5 * largest);
-    }
+  expect_slope(
+      state_, force, [this] { return energy(); }, 1e-7, 1e-5 * largest);
 }
 
 // u_x = a eta zeta strains a cube at its points but not on average, and changes no volume. Eight

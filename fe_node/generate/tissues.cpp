@@ -130,9 +130,7 @@ std::vector<PartSpec> head_tissues(double brain_bulk) {
        .source = "passive muscle and fat, airway spread into the density",
        .grade = Grade::Estimate},
       membrane(part::kNeckSkin, "neck_skin", 1100, 0.1e6, 1.0e-3,
-               "suction of living skin gives 0.1 to 0.2 MPa; the 1 to 22 MPa of drawn skin do not "
-               "count, "
-               "for the neck's lies slack",
+               "0.1 to 0.2 MPa by suction of living skin; slack, so not the 1 to 22 MPa of drawn",
                Grade::Estimate),
   };
 }

@@ -6,6 +6,7 @@
 #include "fe_node/element/hex8_full.h"
 #include "fe_node/solver.h"
 #include "tests/fe_node/box_model.h"
+#include "tests/fe_node/energy_slope.h"
 
 namespace crosswalk::fe {
 namespace {
@@ -17,22 +18,6 @@ std::vector<Vec3> forces_at(const Model& model, State& state) {
   Scratch scratch(model, 1);
   compute_forces(model, state, scratch);
   return nodal_forces(model, scratch);
-}
-
-/// Central differences of energy() over steps of `h` at every node against minus the force there.
-template <class Energy>
-void expect_slope(State& state, const std::vector<Vec3>& force, Energy energy, double h,
-                  double tolerance) {
-  for (std::size_t n = 0; n < state.nodes.size(); ++n)
-    for (int i = 0; i < 3; ++i) {
-      const double kept = state.nodes[n].x[i];
-      state.nodes[n].x[i] = kept + h;
-      const double up = energy();
-      state.nodes[n].x[i] = kept - h;
-      const double down = energy();
-      state.nodes[n].x[i] = kept;
-      EXPECT_NEAR(force[n][i], -(up - down) / (2 * h), tolerance);
-    }
 }
 
 TEST(Hex8, VolumeOfAWarpedBrickIsExact) {

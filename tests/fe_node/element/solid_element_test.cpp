@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fe_node/solver.h"
+#include "tests/fe_node/energy_slope.h"
 #include "tests/fe_node/exact_step.h"
 #include "tests/fe_node/solid_models.h"
 
@@ -90,17 +91,7 @@ TEST_P(EverySolid, ForcesAreTheSlopeOfTheEnergyAndBalance) {
     compute_forces(model, state, scratch);
     return state.energies.internal + state.energies.hourglass_stored;
   };
-  const double h = 1e-6;
-  for (std::size_t n = 0; n < state.nodes.size(); n += 5)
-    for (int i = 0; i < 3; ++i) {
-      const double kept = state.nodes[n].x[i];
-      state.nodes[n].x[i] = kept + h;
-      const double up = energy();
-      state.nodes[n].x[i] = kept - h;
-      const double down = energy();
-      state.nodes[n].x[i] = kept;
-      EXPECT_NEAR(force[n][i], -(up - down) / (2 * h), 1e-3);  // forces are of order 1e5 N
-    }
+  expect_slope(state, force, energy, 1e-6, 1e-3, 5);  // forces are of order 1e5 N
 }
 
 /// The estimate against the largest frequency of the assembled stiffness and mass.

@@ -37,9 +37,9 @@ std::string model_report(const generate::HeadNeck& made, const Model& model) {
   for (const generate::PartQuality& q : generate::hex_quality(made.draft.mesh)) quality[q.part] = q;
   std::string out = "Masses, frame N\n" + made.masses.text();
   out += fmt::format(
-      "\nMesh: scaled Jacobian (at least {}), aspect (at most {}), warpage, least volume over face "
-      "area of the\nbricks; least step of an element of its own, unscaled; mass added by mass "
-      "scaling. The nodes allow {:.3f} us.\n",
+      "\nMesh: scaled Jacobian (at least {}, tetrahedra aside), aspect (at most {}), warpage, "
+      "least volume\nover face area of the bricks; least step of an element of its own, unscaled; "
+      "mass added by mass scaling.\nThe nodes allow {:.3f} us.\n",
       generate::kMinScaledJacobian, generate::kMaxAspect, 1e6 * initial_stable_step(model));
   out += fmt::format("{:>6}  {:<20}{:>9}{:>10}{:>8}{:>9}{:>9}{:>9}{:>9}\n", "part", "title",
                      "elements", "Jacobian", "aspect", "warp deg", "size mm", "step us", "added g");

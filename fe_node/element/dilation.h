@@ -9,26 +9,33 @@
 
 namespace crosswalk::fe {
 
-/// (Jbar / J)^(1/3)
+/// (Jbar / J)^(1/3) and its inverse.
 template <class N>
-N dilation_scale(const N& mean_J, const N& J) {
-  return inverse_cube_root(N(J / mean_J));
+struct Dilation {
+  N scale, inverse;
+};
+
+/// `unevenness`: J / Jbar.
+template <class N>
+Dilation<N> dilation(const N& unevenness) {
+  const N scale = inverse_cube_root(unevenness);
+  return {scale, scale * scale * unevenness};
 }
 
 /// The step as the law sees it. `before` is the scale of the last step.
 template <class N>
-SolidStep<N> dilated_step(const Tensor<N>& F, const Tensor<N>& F_rate, const N& J, const N& scale,
-                          const N& before, double dt) {
+SolidStep<N> dilated_step(const Tensor<N>& F, const Tensor<N>& F_rate, const Tensor<N>& F_inverse,
+                          const N& mean_J, const Dilation<N>& now, const N& before, double dt) {
   SolidStep<N> step;
   step.dt = dt;
-  step.J = J * scale * scale * scale;
-  const double per_step = dt > 0 ? 1 / dt : 0;
+  step.J = mean_J;
+  const N change = (dt > 0 ? 1 / dt : 0) * (now.scale - before);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      step.F(i, j) = scale * F(i, j);
-      step.F_rate(i, j) = per_step * (scale - before) * F(i, j) + before * F_rate(i, j);
+      step.F(i, j) = now.scale * F(i, j);
+      step.F_rate(i, j) = change * F(i, j) + before * F_rate(i, j);
+      step.F_inverse(i, j) = now.inverse * F_inverse(i, j);
     }
-  step.F_inverse = inverse(step.F, step.J);
   return step;
 }
 

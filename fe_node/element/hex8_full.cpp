@@ -219,21 +219,28 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
     growth /= mean_J;
     mean_J *= ref.inverse_volume;
 
-    Symmetric<N> tau[kPoints];
+    // With the law's P of Fbar = s F the Kirchhoff stress is tau = s P F^T; its own third of the
+    // trace gives way to the mean pressure: P of F is s P + (p - tr tau / 3) F^-T.
+    const N inverse_mean_J = 1.0 / mean_J;
+    Tensor<N> scaled_P[kPoints];
     N mean_p = constant<N>(0), alive = h[kPoints], bulk = constant<N>(0), shear = constant<N>(0);
-    N uneven_p[kPoints];
+    N own_p[kPoints];
     answer.energy = answer.stiffness = constant<N>(0);
     for (int q = 0; q < kPoints; ++q) {
-      const N scale = dilation_scale(mean_J, J[q]);
-      const SolidStep<N> bar = dilated_step(F[q], F_rate[q], J[q], scale, h[q], step.dt);
-      if (step.dt > 0) h[q] = scale;
+      const N unevenness = J[q] * inverse_mean_J;
+      const Dilation<N> now = dilation(unevenness);
+      const SolidStep<N> bar =
+          dilated_step(F[q], F_rate[q], F_inverse[q], mean_J, now, h[q], step.dt);
+      if (step.dt > 0) h[q] = now.scale;
       const SolidAnswer<N> material = law.update(bar, point_history(h, q));
-      tau[q] = kirchhoff_stress(material.P, bar.F);
-      const N third = trace(tau[q]) * (1.0 / 3.0);
-      add_pressure(tau[q], N(-third));
-      const N unevenness = J[q] / mean_J;
-      uneven_p[q] = (0.5 * uneven_bulk_) * (unevenness * unevenness - 1.0);
-      mean_p += ref.points[q].volume * (third - uneven_p[q]);
+      N trace = constant<N>(0);
+      for (int k = 0; k < 9; ++k) {
+        N& entry = scaled_P[q](k / 3, k % 3);
+        entry = now.scale * material.P(k / 3, k % 3);
+        trace += entry * F[q](k / 3, k % 3);
+      }
+      own_p[q] = trace * (1.0 / 3.0) - (0.5 * uneven_bulk_) * (unevenness * unevenness - 1.0);
+      mean_p += ref.points[q].volume * own_p[q];
       alive = smaller(alive, material.alive);
       answer.energy += ref.points[q].volume *
                        (material.energy + (0.5 * uneven_bulk_) * volume_energy(unevenness));
@@ -245,7 +252,7 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
                             material.shear_modulus,
                             N((0.5 * uneven_bulk_) * (1.0 + unevenness * unevenness) / J[q]));
     }
-    mean_p *= ref.inverse_volume / mean_J;
+    mean_p *= ref.inverse_volume * inverse_mean_J;
     h[kPoints] = alive;
 
     // Bulk viscosity as of the one-point brick, on the mean rate.
@@ -258,8 +265,10 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
       for (N& f : corner) f = constant<N>(0);
     for (int q = 0; q < kPoints; ++q) {
       const PointReference<N>& point = ref.points[q];
-      add_pressure(tau[q], N(uneven_p[q] + (mean_p - q_mean / mean_J) * J[q]));
-      const Tensor<N> P = pulled_back(tau[q], F_inverse[q]);
+      const N p = (mean_p - q_mean * inverse_mean_J) * J[q] - own_p[q];
+      Tensor<N>& P = scaled_P[q];
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) P(i, j) += p * F_inverse[q](j, i);
       const N factor = point.volume * alive;
       Tensor<N>& conjugate = F[q];  // to the local derivatives; F has done its work
       for (int i = 0; i < 3; ++i)
@@ -304,8 +313,9 @@ ElementSample FullHexBlock<N, Law>::sample(const StepContext& step, std::span<co
   Tensor<N> none;
   for (int k = 0; k < 9; ++k) none(k / 3, k % 3) = constant<N>(0);
   for (int q = 0; q < kPoints; ++q) {
-    const N scale = dilation_scale(mean_J, J[q]);
-    const SolidStep<N> still = dilated_step(F[q], none, J[q], scale, scale, 0);
+    const Dilation<N> now = dilation(N(J[q] / mean_J));
+    const SolidStep<N> still =
+        dilated_step(F[q], none, inverse(F[q], J[q]), mean_J, now, now.scale, 0);
     N* h = point_history(copy.data(), q);
     const SolidAnswer<N> material = law_.update(still, h);
     const Symmetric<N> s = cauchy_stress(material.P, still.F, still.J);

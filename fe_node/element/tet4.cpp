@@ -223,14 +223,14 @@ template <class Law>
 void Tet4Block<Law>::update_law(const StepContext& step, int group, const Tensor<Lanes>& F,
                                 const Tensor<Lanes>& F_rate, const Lanes& J, const Lanes& mean_J,
                                 Lanes* h) const {
-  const Lanes scale =
-      pressure_ == TetPressure::Own ? Lanes(Lanes::Ones()) : dilation_scale(mean_J, J);
-  const SolidStep<Lanes> bar = dilated_step(F, F_rate, J, scale, h[kScale], step.dt);
+  const Dilation<Lanes> now = dilation(Lanes(J / mean_J));
+  const SolidStep<Lanes> bar =
+      dilated_step(F, F_rate, inverse(F, J), mean_J, now, h[kScale], step.dt);
   const SolidAnswer<Lanes> material = law_.update(bar, h + kSlots);
   Symmetric<Lanes> tau = kirchhoff_stress(material.P, bar.F);
   const Lanes third = trace(tau) * (1.0 / 3.0);
   add_pressure(tau, Lanes(-third));
-  if (step.dt > 0) h[kScale] = scale;
+  if (step.dt > 0) h[kScale] = now.scale;
   h[kAlive] = material.alive;
   h[kPressure] = third / bar.J * material.alive;
   h[kEnergy] = material.energy * groups_[group].volume;

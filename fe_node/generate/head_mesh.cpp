@@ -36,17 +36,19 @@ std::vector<Vec3> lifted_directions(const CubedSphere& sphere, const HeadShape& 
 
 constexpr double kMeanInwards = 0.84;  ///< brain surface over skin, seen from the centre
 
-}  // namespace
-
+// The cerebellum in the lattice of the ball, so that the tentorium above it is a smooth sheet.
 // Shares wanted: cerebellum 11 %, brainstem 2 to 2.5 % of the brain [caviness1996]; the bounds are
 // estimates [E] that give them within the cell size.
-int brain_part(const Vec3& p, const Vec3& scale) {
+constexpr double kCerebellumTop = -0.25, kCerebellumFront = -0.25;
+
+}  // namespace
+
+int brain_part(const Vec3& lattice, const Vec3& p, const Vec3& scale) {
   const Vec3 q = p.cwiseQuotient(scale);
   const bool left = q.y() > 0;
   if (std::abs(q.y()) < 0.0135 && q.x() > -0.026 && q.x() < 0.004 && q.z() < 0.025)
     return part::kBrainstem;
-  const double tentorium_z = 0.024 + 0.014 * smooth_step(0.05, 0.0, std::abs(q.y()));
-  if (q.z() < tentorium_z && q.x() < -0.008)
+  if (lattice.z() < kCerebellumTop && lattice.x() < kCerebellumFront)
     return left ? part::kCerebellumLeft : part::kCerebellumRight;
   return left ? part::kCerebrumLeft : part::kCerebrumRight;
 }
@@ -70,8 +72,9 @@ HeadMesh add_cranium(MeshDraft& draft, const HeadShape& shape, const HeadResolut
     const double lift = resolution.lift * shape.middle_z(p.x()) * (1 - radius * radius);
     return shape.centre() + inwards * shape.spread(p) + Vec3(0, 0, lift);
   };
-  head.brain_surface = add_ball(draft, sphere, place,
-                                [&](const Vec3& p) { return brain_part(place(p), shape.scale()); });
+  head.brain_surface = add_ball(draft, sphere, place, [&](const BallCell& cell) {
+    return brain_part(cell.lattice, place(cell.centroid), shape.scale());
+  });
   const auto everywhere = [](int) { return true; };
   const HeadStrip strip(sphere);
   const auto off_strip = [&strip](int quad) { return !strip.holds_quad(quad); };

@@ -76,7 +76,7 @@ struct FaceAndFlesh {
 FaceAndFlesh add_face_and_flesh(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape,
                                 const NeckFleshPlan& plan);
 
-/// Region of a brain cell by its centroid in F.
-int brain_part(const Vec3& p, const Vec3& scale);
+/// Region of a brain cell by its place in the ball's lattice and its centroid in F.
+int brain_part(const Vec3& lattice, const Vec3& p, const Vec3& scale);
 
 }  // namespace crosswalk::fe::generate

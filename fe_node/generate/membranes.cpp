@@ -1,13 +1,14 @@
 #include "fe_node/generate/membranes.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <set>
 
+#include "fe_node/generate/hex_faces.h"
 #include "fe_node/generate/part_ids.h"
+#include "fe_node/generate/sheet_fluid.h"
 #include "fe_node/generate/skull.h"
 
 namespace crosswalk::fe::generate {
@@ -21,29 +22,26 @@ constexpr double kNotchHalfWidth = 0.028;   // m, opening of the tentorium for t
 constexpr double kNotchBack = -0.028;       // m, x in F of its back [E]
 constexpr double kTentoriumFront = -0.016;  // m, x in F of its front edge beside the notch [E]
 
-constexpr std::array<std::array<int, 4>, 6> kFaces = {
-    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+constexpr double kFluidGap = 0.002;  // m, of the cisterns on each side of falx and tentorium [E]
 
 /// Which of two regions of the cranium a brick belongs to, or neither.
 enum class Side { None, One, Other };
 
 /// Quads on the faces where a brick of side One meets one of side Other, oriented out of One.
 void add_sheet(MeshDraft& draft, const std::vector<Side>& side, int part,
-               const std::function<bool(const Vec3&)>& is_wanted) {
-  std::map<std::array<int, 4>, std::pair<Side, std::array<int, 4>>> open;
+               const std::function<bool(const Vec3& centre, const Vec3& normal)>& is_wanted) {
+  std::map<FaceKey, std::pair<Side, std::array<int, 4>>> open;
   for (std::size_t h = 0; h < side.size(); ++h) {
     if (side[h] == Side::None) continue;
-    for (const auto& face : kFaces) {
-      std::array<int, 4> node{};
-      for (int c = 0; c < 4; ++c) node[c] = draft.hexes[h].node[face[c]];
-      std::array<int, 4> key = node;
-      std::sort(key.begin(), key.end());
-      const auto [found, is_new] = open.try_emplace(key, side[h], node);
+    for (const auto& face : kHexFaces) {
+      const std::array<int, 4> node = face_nodes(draft.hexes[h], face);
+      const auto [found, is_new] = open.try_emplace(face_key(node), side[h], node);
       if (is_new || found->second.first == side[h]) continue;
-      Vec3 centre = Vec3::Zero();
-      for (const int id : node) centre += 0.25 * draft.nodes[id];
-      if (!is_wanted(centre)) continue;
-      draft.quads.push_back({side[h] == Side::One ? node : found->second.second, part});
+      const std::array<int, 4>& out = side[h] == Side::One ? node : found->second.second;
+      const auto at = [&](int c) -> const Vec3& { return draft.nodes[out[c]]; };
+      const Vec3 centre = 0.25 * (at(0) + at(1) + at(2) + at(3));
+      const Vec3 normal = (at(2) - at(0)).cross(at(3) - at(1)).normalized();
+      if (is_wanted(centre, normal)) draft.quads.push_back({out, part});
     }
   }
 }
@@ -61,23 +59,17 @@ bool is_cerebellum(int part) {
 
 /// The part of the brain under each brick; CSF bricks continue the brain brick below them.
 std::vector<int> brain_parts(const MeshDraft& draft) {
-  std::map<std::array<int, 4>, int> under;  // sorted nodes of a brick's outer face
+  std::map<FaceKey, int> under;  // a brick's outer face
   std::vector<int> parts(draft.hexes.size(), -1);
-  const auto outer = [](const Hex& hex, int first) {
-    std::array<int, 4> key{hex.node[first], hex.node[first + 1], hex.node[first + 2],
-                           hex.node[first + 3]};
-    std::sort(key.begin(), key.end());
-    return key;
-  };
   for (std::size_t h = 0; h < draft.hexes.size(); ++h) {
     const Hex& hex = draft.hexes[h];
     if (hex.part == part::kCsf) {
-      const auto found = under.find(outer(hex, 0));
+      const auto found = under.find(face_key(inner_face(hex)));
       if (found != under.end()) parts[h] = found->second;
     } else if (is_cerebrum(hex.part) || is_cerebellum(hex.part) || hex.part == part::kBrainstem) {
       parts[h] = hex.part;
     }
-    if (parts[h] >= 0) under[outer(hex, 4)] = parts[h];
+    if (parts[h] >= 0) under[face_key(outer_face(hex))] = parts[h];
   }
   return parts;
 }
@@ -111,7 +103,6 @@ std::vector<int> free_cross_edges(const MeshDraft& draft, int part, double least
 }  // namespace
 
 std::vector<int> add_membranes(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape) {
-  add_surface(draft, head.sphere, head.brain_surface, part::kPia, [](int) { return true; });
   // The spinal dura goes on from the rim of the foramen and spans nothing.
   const std::vector<int> skull = skull_parts(draft, head);
   add_surface(draft, head.sphere, head.skull_inner, part::kDura,
@@ -128,12 +119,13 @@ std::vector<int> add_membranes(MeshDraft& draft, const HeadMesh& head, const Hea
     }
   }
   const Vec3 centre = shape.centre(), scale = shape.scale();
-  add_sheet(draft, halves, part::kFalx, [&](const Vec3& p) {
+  add_sheet(draft, halves, part::kFalx, [&](const Vec3& p, const Vec3&) {
     const Vec3 q = p.cwiseQuotient(scale), d = p - centre;
     if (q.z() < (q.x() > 0 ? kFalxFrontZ : kFalxBackZ)) return false;
     return d.norm() > kFalxInnerShare * shape.ray(shape.on_ball(d)).brain;
   });
-  add_sheet(draft, floors, part::kTentorium, [&](const Vec3& p) {
+  add_sheet(draft, floors, part::kTentorium, [&](const Vec3& p, const Vec3& normal) {
+    if (normal.z() < 0.5) return false;  // the cerebellum's front
     const Vec3 q = p.cwiseQuotient(scale);
     if (std::abs(q.y()) < kNotchHalfWidth) return q.x() < kNotchBack;
     return q.x() < kTentoriumFront;
@@ -141,6 +133,18 @@ std::vector<int> add_membranes(MeshDraft& draft, const HeadMesh& head, const Hea
   std::vector<int> edge = free_cross_edges(draft, part::kTentorium, kNotchHalfWidth * scale.y());
   const std::set<int> on_skull(head.skull_inner.begin(), head.skull_inner.end());
   std::erase_if(edge, [&](int id) { return on_skull.contains(id); });
+
+  std::vector<Side> surface(parts.size(), Side::None);
+  for (std::size_t h = 0; h < parts.size(); ++h)
+    if (parts[h] >= 0) surface[h] = draft.hexes[h].part == part::kCsf ? Side::Other : Side::One;
+  float_sheets(draft, {.sheets = {part::kFalx, part::kTentorium},
+                       .tissue = {part::kCerebrumLeft, part::kCerebrumRight, part::kCerebellumLeft,
+                                  part::kCerebellumRight, part::kBrainstem},
+                       .fluid = part::kCsf,
+                       .lining = part::kPia,
+                       .gap = kFluidGap,
+                       .anchored = head.skull_inner});
+  add_sheet(draft, surface, part::kPia, [](const Vec3&, const Vec3&) { return true; });
   return edge;
 }
 

@@ -72,7 +72,7 @@ int radial_layers(int n) { return std::max(2, static_cast<int>(std::lround(0.22 
 
 std::vector<int> add_ball(MeshDraft& draft, const CubedSphere& sphere,
                           const std::function<Vec3(const Vec3&)>& place,
-                          const std::function<int(const Vec3&)>& part_of) {
+                          const std::function<int(const BallCell&)>& part_of) {
   const int n = sphere.n();
   std::vector<Vec3> unit;  // unit-ball position of every node added here
   const int first = static_cast<int>(draft.nodes.size());
@@ -80,10 +80,10 @@ std::vector<int> add_ball(MeshDraft& draft, const CubedSphere& sphere,
     unit.push_back(position);
     return draft.add_node(place(position));
   };
-  const auto add_hex = [&](const std::array<int, 8>& node) {
-    Vec3 centre = Vec3::Zero();
-    for (const int id : node) centre += unit[id - first] / 8.0;
-    draft.hexes.push_back({node, part_of(centre)});
+  const auto add_hex = [&](const std::array<int, 8>& node, const Vec3& lattice) {
+    BallCell cell{.lattice = lattice};
+    for (const int id : node) cell.centroid += unit[id - first] / 8.0;
+    draft.hexes.push_back({node, part_of(cell)});
   };
   for (int k = 0; k <= n; ++k)
     for (int j = 0; j <= n; ++j)
@@ -94,7 +94,8 @@ std::vector<int> add_ball(MeshDraft& draft, const CubedSphere& sphere,
       for (int i = 0; i < n; ++i)
         add_hex({core(i, j, k), core(i + 1, j, k), core(i + 1, j + 1, k), core(i, j + 1, k),
                  core(i, j, k + 1), core(i + 1, j, k + 1), core(i + 1, j + 1, k + 1),
-                 core(i, j + 1, k + 1)});
+                 core(i, j + 1, k + 1)},
+                0.5 * (lattice_cube({i, j, k}, n) + lattice_cube({i + 1, j + 1, k + 1}, n)));
   std::vector<int> inner(sphere.surface_size());
   for (int s = 0; s < sphere.surface_size(); ++s) {
     const auto& p = sphere.lattice(s);
@@ -109,7 +110,9 @@ std::vector<int> add_ball(MeshDraft& draft, const CubedSphere& sphere,
       outer[s] = add((1.0 - f) * unit[core_surface[s] - first] + f * sphere.direction(s));
     for (const auto& quad : sphere.quads())
       add_hex({inner[quad[0]], inner[quad[1]], inner[quad[2]], inner[quad[3]], outer[quad[0]],
-               outer[quad[1]], outer[quad[2]], outer[quad[3]]});
+               outer[quad[1]], outer[quad[2]], outer[quad[3]]},
+              0.5 * (lattice_cube(sphere.lattice(quad[0]), n) +
+                     lattice_cube(sphere.lattice(quad[2]), n)));
     inner = outer;
   }
   return inner;

@@ -51,12 +51,19 @@ class CubedSphere {
 /// Number of radial layers between core and ball surface that keeps cells about cubic.
 int radial_layers(int n);
 
+/// Where a cell of a ball is.
+struct BallCell {
+  Vec3 centroid = Vec3::Zero();  ///< in the unit ball, before mapping
+  /// Centre in the lattice of the core, -1 .. 1 along each axis; of a shell cell the one under it
+  /// on the core's surface. Planes of it are smooth sheets through core and shell.
+  Vec3 lattice = Vec3::Zero();
+};
+
 /// Fills the unit ball, mapped by `place`, with n^3 core and 6 n^2 radial_layers(n) shell hexes.
-/// `part_of` gets the hex's centroid before mapping. Returns the nodes of the outer surface in
-/// surface order.
+/// Returns the nodes of the outer surface in surface order.
 std::vector<int> add_ball(MeshDraft& draft, const CubedSphere& sphere,
                           const std::function<Vec3(const Vec3&)>& place,
-                          const std::function<int(const Vec3&)>& part_of);
+                          const std::function<int(const BallCell&)>& part_of);
 
 /// One layer of hexes on top of the selected surface quads. `inner` and the result hold one node
 /// per surface node (-1: not meshed); `position` gives the outer node.

@@ -27,6 +27,19 @@ double jacobian_determinant(const HexCorners& x, double r, double s, double t) {
   return J.determinant();
 }
 
+/// Of a wedge, pyramid or tetrahedron: two of the corner's edges lie on each other, or one is none.
+bool is_collapsed(const HexCorners& x, const int (&corner)[4]) {
+  for (int a = 0; a < 4; ++a)
+    for (int b = 0; b < a; ++b)
+      if (x[corner[a]] == x[corner[b]]) return true;
+  return false;
+}
+
+bool is_tetrahedron(const Hex& hex) {
+  return std::all_of(hex.node.begin() + 4, hex.node.end(),
+                     [&](int id) { return id == hex.node[3]; });
+}
+
 double angle_between(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
@@ -58,6 +71,7 @@ double volume(const HexCorners& x) {
 double scaled_jacobian(const HexCorners& x) {
   double least = 1;
   for (const auto& corner : kCornerEdges) {
+    if (is_collapsed(x, corner)) continue;
     const Vec3 a = (x[corner[1]] - x[corner[0]]).normalized();
     const Vec3 b = (x[corner[2]] - x[corner[0]]).normalized();
     const Vec3 c = (x[corner[3]] - x[corner[0]]).normalized();
@@ -70,7 +84,7 @@ double aspect_ratio(const HexCorners& x) {
   double shortest = 1e300, longest = 0;
   for (const auto& edge : kEdges) {
     const double length = (x[edge[1]] - x[edge[0]]).norm();
-    shortest = std::min(shortest, length);
+    if (length > 0) shortest = std::min(shortest, length);
     longest = std::max(longest, length);
   }
   return longest / shortest;
@@ -80,6 +94,7 @@ double warpage(const HexCorners& x) {
   double worst = 0;
   for (const auto& face : kFaces) {
     for (int turn = 0; turn < 2; ++turn) {
+      if (is_collapsed(x, face)) continue;
       const Vec3 &a = x[face[turn]], &b = x[face[turn + 1]], &c = x[face[turn + 2]],
                  &d = x[face[(turn + 3) % 4]];
       worst = std::max(worst, angle_between((b - a).cross(c - a), (c - a).cross(d - a)));
@@ -109,7 +124,8 @@ std::vector<PartQuality> hex_quality(const MeshDraft& draft) {
     const HexCorners x = corners_of(draft, hex);
     ++found->elements;
     found->volume += volume(x);
-    found->min_scaled_jacobian = std::min(found->min_scaled_jacobian, scaled_jacobian(x));
+    if (!is_tetrahedron(hex))
+      found->min_scaled_jacobian = std::min(found->min_scaled_jacobian, scaled_jacobian(x));
     found->max_aspect = std::max(found->max_aspect, aspect_ratio(x));
     found->max_warpage = std::max(found->max_warpage, warpage(x));
     found->min_characteristic_length =

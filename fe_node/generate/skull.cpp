@@ -1,9 +1,9 @@
 #include "fe_node/generate/skull.h"
 
-#include <algorithm>
 #include <array>
 #include <map>
 
+#include "fe_node/generate/hex_faces.h"
 #include "fe_node/generate/mass_report.h"
 #include "fe_node/generate/part_ids.h"
 
@@ -14,14 +14,6 @@ namespace {
 constexpr double kOcciputRadius = 0.026;  // of the rigid skull base round the condyles, m [E]
 constexpr double kForamenRadius = 0.015;  // m; adult foramina are 35 by 30 mm [L]
 constexpr double kForamenX = -0.015;      // m, of its centre in the reference head [E]
-
-using FaceKey = std::array<int, 4>;
-
-FaceKey key_of(const int* node) {
-  FaceKey key{node[0], node[1], node[2], node[3]};
-  std::sort(key.begin(), key.end());
-  return key;
-}
 
 std::array<int, 4> corners(const CubedSphere& sphere, int quad, const std::vector<int>& surface) {
   const auto& q = sphere.quads()[quad];
@@ -44,13 +36,13 @@ void mark_skull_base(MeshDraft& draft, const HeadMesh& head, const HeadShape& sh
   for (int q = 0; q < static_cast<int>(head.sphere.quads().size()); ++q) {
     const std::array<int, 4> node = corners(head.sphere, q, head.skull_inner);
     const Vec3 centre = mean(draft, node.data(), 4);
-    is_open[key_of(node.data())] =
+    is_open[face_key(node)] =
         centre.z() < 0 && (centre - foramen).head<2>().norm() < kForamenRadius;
   }
   for (Hex& hex : draft.hexes) {
     if (hex.part != part::kDiploe) continue;
-    const bool open = is_open.at(key_of(hex.node.data()));
-    is_open[key_of(hex.node.data() + 4)] = open;
+    const bool open = is_open.at(face_key(inner_face(hex)));
+    is_open[face_key(outer_face(hex))] = open;
     const Vec3 centre = mean(draft, hex.node.data(), 8);
     if (open)
       hex.part = part::kCord;
@@ -61,22 +53,22 @@ void mark_skull_base(MeshDraft& draft, const HeadMesh& head, const HeadShape& sh
 
 std::vector<int> skull_parts(const MeshDraft& draft, const HeadMesh& head) {
   std::map<FaceKey, int> part_on;
-  for (const Hex& hex : draft.hexes) part_on[key_of(hex.node.data())] = hex.part;
+  for (const Hex& hex : draft.hexes) part_on[face_key(inner_face(hex))] = hex.part;
   std::vector<int> parts;
   for (int q = 0; q < static_cast<int>(head.sphere.quads().size()); ++q)
-    parts.push_back(part_on.at(key_of(corners(head.sphere, q, head.skull_inner).data())));
+    parts.push_back(part_on.at(face_key(corners(head.sphere, q, head.skull_inner))));
   return parts;
 }
 
 void add_tables(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape) {
   std::map<FaceKey, int> outside;  // part under an outer face
-  for (const Hex& hex : draft.hexes) outside[key_of(hex.node.data() + 4)] = hex.part;
+  for (const Hex& hex : draft.hexes) outside[face_key(outer_face(hex))] = hex.part;
   const std::vector<int> inside = skull_parts(draft, head);
   for (int q = 0; q < static_cast<int>(inside.size()); ++q) {
     const std::array<int, 4> inner = corners(head.sphere, q, head.skull_inner),
                              outer = corners(head.sphere, q, head.skull_outer);
     const Vec3 to_outer = (mean(draft, outer.data(), 4) - shape.centre()).normalized();
-    if (outside.at(key_of(outer.data())) == part::kDiploe)
+    if (outside.at(face_key(outer)) == part::kDiploe)
       draft.quads.push_back({outer, part::kOuterTable, HeadShape::outer_table_thickness(to_outer)});
     if (inside[q] == part::kDiploe)
       draft.quads.push_back({inner, part::kInnerTable, HeadShape::inner_table_thickness(to_outer)});

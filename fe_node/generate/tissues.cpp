@@ -15,7 +15,7 @@ PartSpec brain(int id, const char* name, double bulk, double shear_short, double
           .law =
               mat::Viscoelastic{
                   .bulk = bulk, .shear_short = shear_short, .shear_long = shear_long, .decay = 80},
-          .section = SolidSection{.hourglass = kOwnHourglass},
+          .section = SolidSection{.hourglass = 0},
           .source = source,
           .grade = grade};
 }

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "common/units.h"
-#include "fe_node/element/element_controls.h"
 #include "fe_node/generate/primitives.h"
 #include "fe_node/generate/tissues.h"
 #include "fe_node/output/tissue_metrics.h"
@@ -33,7 +32,7 @@ generate::ModelDraft ball_in_shell(int n, double bulk) {
   const generate::CubedSphere sphere(n);
   const std::vector<int> surface = generate::add_ball(
       draft.mesh, sphere, [](const Vec3& p) -> Vec3 { return kRadius * p; },
-      [](const Vec3&) { return kBall; });
+      [](const generate::BallCell&) { return kBall; });
   generate::add_layer(
       draft.mesh, sphere, surface, [](int) { return true; },
       [&](int s) -> Vec3 { return 1.05 * kRadius * sphere.direction(s); }, kShell);
@@ -44,7 +43,7 @@ generate::ModelDraft ball_in_shell(int n, double bulk) {
        .law =
            mat::Viscoelastic{
                .bulk = bulk, .shear_short = kShearShort, .shear_long = kShearLong, .decay = kDecay},
-       .section = generate::SolidSection{.hourglass = kOwnHourglass},
+       .section = generate::SolidSection{.hourglass = 0},
        .source = "",
        .grade = generate::Grade::Literature},
       {.id = kShell,

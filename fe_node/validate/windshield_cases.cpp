@@ -39,7 +39,7 @@ ModelDraft headform(Fidelity fidelity) {
   const generate::CubedSphere sphere(n);
   std::vector<int> surface = add_ball(
       draft.mesh, sphere, [&](const Vec3& p) -> Vec3 { return core * p; },
-      [](const Vec3&) { return kCore; });
+      [](const generate::BallCell&) { return kCore; });
   for (int layer = 1; layer <= layers; ++layer) {
     const double radius = core + kSkinThickness * layer / layers;
     surface = add_layer(

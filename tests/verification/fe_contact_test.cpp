@@ -42,7 +42,7 @@ Mesh ball_mesh(int n, double radius, const Vec3& centre) {
   const generate::CubedSphere sphere(n);
   generate::add_ball(
       draft, sphere, [&](const Vec3& p) -> Vec3 { return centre + radius * p; },
-      [](const Vec3&) { return 0; });
+      [](const generate::BallCell&) { return 0; });
   Mesh mesh;
   mesh.position = draft.nodes;
   mesh.node_id.resize(draft.nodes.size());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "common/units.h"
 #include "fe_node/deck/deck_writer.h"
 #include "fe_node/deck/keyword_reader.h"
+#include "fe_node/generate/hex_faces.h"
 #include "fe_node/generate/part_ids.h"
 #include "fe_node/generate/quality.h"
 #include "tests/common/subject_fixture.h"
@@ -119,6 +121,25 @@ double area_of(const HeadNeck& model, int part) {
   return sum;
 }
 
+// Fluid on both sides of falx and tentorium, and no brick of the brain.
+TEST(HeadNeck, SheetsOfTheBrainFloat) {
+  const HeadNeck model = build_head_neck(untrimmed());
+  const MeshDraft& mesh = model.draft.mesh;
+  std::map<FaceKey, std::vector<int>> parts_on;
+  for (const Hex& hex : mesh.hexes)
+    for (const auto& face : kHexFaces)
+      parts_on[face_key(face_nodes(hex, face))].push_back(hex.part);
+  int sheets = 0, floating = 0;
+  for (const Quad& quad : mesh.quads) {
+    if (quad.part != part::kFalx && quad.part != part::kTentorium) continue;
+    ++sheets;
+    floating += parts_on[face_key(quad.node)] == std::vector<int>{part::kCsf, part::kCsf};
+  }
+  // The others lie in the corners of an outline, where the fluid runs out in a point.
+  EXPECT_GT(floating, 0.75 * sheets);
+  for (const Hex& hex : mesh.hexes) EXPECT_GT(volume(corners_of(mesh, hex)), 0);
+}
+
 TEST(HeadNeck, MembranesLieWhereTheyBelong) {
   const HeadNeck model = build_head_neck(untrimmed());
   using namespace part;
@@ -133,7 +154,8 @@ TEST(HeadNeck, MembranesLieWhereTheyBelong) {
   EXPECT_LT(area_of(model, kFalx), 85e-4);
   EXPECT_GT(area_of(model, kTentorium), 30e-4);
   EXPECT_LT(area_of(model, kTentorium), 85e-4);
-  EXPECT_GT(area_of(model, kDura), area_of(model, kPia));
+  // The pia covers the brain where the sheets part it, too.
+  EXPECT_GT(area_of(model, kPia), area_of(model, kDura) + area_of(model, kFalx));
   // Mirror images: the tentorium's centre lies in the mid-plane.
   double moment = 0;
   const std::vector<Vec3>& x = model.draft.mesh.nodes;

@@ -19,7 +19,7 @@ const double kVolume = 4.0 / 3.0 * kPi * 79 * 69 * 0.5 * (78 + 50);
 
 MeshDraft ball(int n) {
   MeshDraft draft;
-  add_ball(draft, CubedSphere(n), brain_like, [](const Vec3&) { return 1; });
+  add_ball(draft, CubedSphere(n), brain_like, [](const BallCell&) { return 1; });
   return draft;
 }
 
@@ -79,7 +79,7 @@ TEST(AddLayer, SharesTheInnerNodesAndMeshesOnlyTheChosenQuads) {
   const CubedSphere sphere(4);
   MeshDraft draft;
   const auto inner = add_ball(
-      draft, sphere, [](const Vec3& p) { return p; }, [](const Vec3&) { return 1; });
+      draft, sphere, [](const Vec3& p) { return p; }, [](const BallCell&) { return 1; });
   const std::size_t before = draft.hexes.size();
   const auto outer = add_layer(
       draft, sphere, inner, [](int quad) { return quad < 16; },

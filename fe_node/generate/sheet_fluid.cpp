@@ -9,14 +9,15 @@
 
 #include "common/error.h"
 #include "fe_node/generate/hex_faces.h"
+#include "fe_node/generate/layer_cell.h"
 
 namespace crosswalk::fe::generate {
 
 namespace {
 
-/// Normals of a sheet that differ by less than this share of the gap's system count as parallel.
+/// Singular value over the largest below which the normals at a node are of one sheet.
 constexpr double kParallel = 0.2;
-constexpr int kSweeps = 60;  ///< of the cells behind the new faces; enough for those of `fine`
+constexpr int kSweeps = 60;  ///< over the cells that give way; enough for those of `fine`
 
 bool holds(const std::vector<int>& parts, int part) {
   return std::find(parts.begin(), parts.end(), part) != parts.end();
@@ -224,7 +225,7 @@ class Parting {
         if (&side == &sides[0]) std::reverse(sheet.begin(), sheet.end());
         std::array<int, 4> tissue = sheet;
         for (int& id : tissue) id = copy_in(side.hex, id);
-        add_filling(sheet, tissue);
+        add_layer_cell(draft_, sheet, tissue, spec_.fluid);
         if (tissue != sheet && holds(spec_.tissue, draft_.hexes[side.hex].part))
           draft_.quads.push_back({{tissue[3], tissue[2], tissue[1], tissue[0]}, spec_.lining});
       }
@@ -235,45 +236,6 @@ class Parting {
       if (whole_hexes_[hex].node[c] == node) return draft_.hexes[hex].node[c];
     CW_ASSERT(false && "the brick lies on the sheet");
     return -1;
-  }
-
-  void add_filling(std::array<int, 4> sheet, std::array<int, 4> tissue) {
-    const auto parted = [&](int c) { return sheet[c % 4] != tissue[c % 4]; };
-    const auto turn = [&](int to_front) {
-      std::rotate(sheet.begin(), sheet.begin() + to_front, sheet.end());
-      std::rotate(tissue.begin(), tissue.begin() + to_front, tissue.end());
-    };
-    const auto add = [&](const std::array<int, 8>& node) {
-      draft_.hexes.push_back({node, spec_.fluid});
-    };
-    const auto &s = sheet, &t = tissue;
-    const auto add_tetrahedron = [&](int c) {
-      const int apex = t[c];
-      add({s[c], s[(c + 1) % 4], s[(c + 3) % 4], apex, apex, apex, apex, apex});
-    };
-    int count = 0;
-    for (int c = 0; c < 4; ++c) count += parted(c);
-    if (count == 4) {
-      add({s[0], s[1], s[2], s[3], t[0], t[1], t[2], t[3]});
-    } else if (count == 3) {  // two pyramids whose apex is the whole node
-      int whole = 0;
-      while (parted(whole)) ++whole;
-      turn((whole + 1) % 4);
-      add({s[0], t[0], t[1], s[1], s[3], s[3], s[3], s[3]});
-      add({s[1], t[1], t[2], s[2], s[3], s[3], s[3], s[3]});
-    } else if (count == 2 && parted(0) == parted(2)) {
-      for (int c = 0; c < 4; ++c)
-        if (parted(c)) add_tetrahedron(c);
-    } else if (count == 2) {  // a wedge
-      int first = 0;
-      while (!(parted(first) && parted(first + 1))) ++first;
-      turn(first);
-      add({s[1], t[1], s[2], s[2], s[0], t[0], s[3], s[3]});
-    } else if (count == 1) {
-      int c = 0;
-      while (!parted(c)) ++c;
-      add_tetrahedron(c);
-    }
   }
 
   const Vec3& at(int node) const { return draft_.nodes[node]; }

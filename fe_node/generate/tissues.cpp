@@ -7,6 +7,8 @@ namespace crosswalk::fe::generate {
 
 namespace {
 
+/// Eight points: one would answer to the mean deformation alone, and bricks turn inside out in a
+/// hard blow.
 PartSpec brain(int id, const char* name, double bulk, double shear_short, double shear_long,
                const char* source, Grade grade) {
   return {.id = id,
@@ -78,8 +80,7 @@ std::vector<PartSpec> head_tissues(double brain_bulk) {
        .section = SolidSection{},
        .source = "skull base round the foramen magnum, rigid",
        .grade = Grade::Estimate},
-      // Eight points: they hold the volume itself. A one-point brick answers to the determinant of
-      // its mean deformation, and thin layers sheared by the brain turned inside out at fine.
+      // Eight points, as of the brain: thin layers that it shears turned inside out at fine.
       {.id = part::kCsf,
        .name = "csf",
        .density = 1000,

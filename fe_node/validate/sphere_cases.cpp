@@ -233,7 +233,7 @@ CaseResult sphere_pressure(const CaseContext& context) {
   result.measures.push_back({"pressure at the front pole", "kPa", front / count, -exact,
                              -1.05 * exact, -0.95 * exact, Confidence::ClosedForm, "-rho a R"});
   result.notes.push_back(fmt::format(
-      "MPS95 {:.3f} in pure translation, exactly 0 in the continuum: error of one-point bricks",
+      "MPS95 {:.3f} in pure translation, exactly 0 in the continuum: error of the mesh",
       strain));
   return result;
 }

@@ -2,9 +2,9 @@
 // the brain, falx between the hemispheres, tentorium over the cerebellum. Frame F (head_shape.h).
 //
 // The falx lies in the mid-plane in the outer 45 % of the brain and reaches through the CSF to the
-// skull; its lower edge is free above the callosum. The tentorium follows the brick faces between
-// cerebrum and cerebellum and leaves a notch for the brainstem; the petrous bones hold its front
-// edge beside the notch. Outlines are estimates [E].
+// skull; its lower edge is free above the callosum. The tentorium follows the brick faces above the
+// cerebellum and leaves a notch for the brainstem; the petrous bones hold its front edge beside the
+// notch. Both have CSF on either side (sheet_fluid.h). Outlines and gaps are estimates [E].
 #pragma once
 
 #include <vector>

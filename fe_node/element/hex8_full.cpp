@@ -289,48 +289,57 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
   lanes.book(sums);
 }
 
+/// One lane of what is kept for a pack.
+template <template <class> class T, class N>
+T<double> lane_of(const T<N>& all, int lane) {
+  constexpr std::size_t kCount = sizeof(T<N>) / sizeof(N);
+  T<double> one;
+  for (std::size_t k = 0; k < kCount; ++k)
+    reinterpret_cast<double*>(&one)[k] = reinterpret_cast<const N*>(&all)[k][lane];
+  return one;
+}
+
+// Outputs ask for one element at a time: its own numbers alone, not those of its pack.
 template <class N, class Law>
 ElementSample FullHexBlock<N, Law>::sample(const StepContext& step, std::span<const double> history,
                                            int element) const {
   const int pack = element / kWidth<N>, lane = element % kWidth<N>;
-  const FullHexReference<N>& ref = packs_[pack];
-  HexNodes<N> nodes;
-  load_corners(step.nodes, group_nodes(pack * kGroupsPerPack<N>), nodes.x, nodes.v);
-  const N* own = kept_.of(history, pack);
-  std::vector<N, Eigen::aligned_allocator<N>> copy(own, own + history_size());
+  const FullHexReference<double> ref = lane_of(packs_[pack], lane);
+  const N* kept = kept_.of(history, pack);
+  std::vector<double> h(history_size());
+  for (int k = 0; k < history_size(); ++k) h[k] = kept[k][lane];
+  double x[8][3];
+  for (int c = 0; c < 8; ++c) {
+    const Vec3 p = step.nodes[node(element / kLanes, c, element % kLanes)].position();
+    for (int axis = 0; axis < 3; ++axis) x[c][axis] = p[axis];
+  }
   ElementSample out;
   out.deformation.setZero();
   out.volume = element_volume(element);
-  out.is_alive = copy[kPoints][lane] > 0;
-  Tensor<N> F[kPoints];
-  local_derivatives(nodes.x, F);
-  N J[kPoints], mean_J = constant<N>(0);
+  out.is_alive = h[kPoints] > 0;
+  Tensor<double> F[kPoints];
+  local_derivatives(x, F);
+  double J[kPoints], mean_J = 0;
   for (int q = 0; q < kPoints; ++q) {
     F[q] = product(F[q], ref.points[q].half_local);
     J[q] = determinant(F[q]);
     mean_J += ref.points[q].volume * J[q] * ref.inverse_volume;
   }
-  Tensor<N> none;
-  for (int k = 0; k < 9; ++k) none(k / 3, k % 3) = constant<N>(0);
   for (int q = 0; q < kPoints; ++q) {
-    const Dilation<N> now = dilation(N(J[q] / mean_J));
-    const SolidStep<N> still =
-        dilated_step(F[q], none, inverse(F[q], J[q]), mean_J, now, now.scale, 0);
-    N* h = point_history(copy.data(), q);
-    const SolidAnswer<N> material = law_.update(still, h);
-    const Symmetric<N> s = cauchy_stress(material.P, still.F, still.J);
-    const double share = ref.points[q].volume[lane] / out.volume;
+    const double volume = ref.points[q].volume, share = volume / out.volume;
+    const Dilation<double> now = dilation(J[q] / mean_J);
+    const SolidStep<double> still =
+        dilated_step(F[q], Tensor<double>{}, inverse(F[q], J[q]), mean_J, now, now.scale, 0);
+    double* own = h.data() + kPoints + 1 + q * law_.history_size();
+    const SolidAnswer<double> material = law_.update(still, own);
+    const Symmetric<double> s = cauchy_stress(material.P, still.F, still.J);
     Mat3 stress;
-    stress << s.xx[lane], s.xy[lane], s.zx[lane], s.xy[lane], s.yy[lane], s.yz[lane], s.zx[lane],
-        s.yz[lane], s.zz[lane];
+    stress << s.xx, s.xy, s.zx, s.xy, s.yy, s.yz, s.zx, s.yz, s.zz;
     out.stress += share * stress;
-    out.energy +=
-        ref.points[q].volume[lane] *
-        (material.energy[lane] +
-         0.5 * uneven_bulk_ * volume_energy(static_cast<double>(J[q][lane] / mean_J[lane])));
-    for (int k = 0; k < 9; ++k) out.deformation(k / 3, k % 3) += share * F[q](k / 3, k % 3)[lane];
+    out.energy += volume * (material.energy + 0.5 * uneven_bulk_ * volume_energy(J[q] / mean_J));
+    for (int k = 0; k < 9; ++k) out.deformation(k / 3, k % 3) += share * F[q](k / 3, k % 3);
     if constexpr (requires { Law::kPlasticStrain; })
-      out.plastic_strain = std::max(out.plastic_strain, h[Law::kPlasticStrain][lane]);
+      out.plastic_strain = std::max(out.plastic_strain, own[Law::kPlasticStrain]);
   }
   out.centre = centre(step.nodes, element);
   return out;

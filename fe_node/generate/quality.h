@@ -34,7 +34,7 @@ double characteristic_length(const HexCorners& x);  ///< m
 struct PartQuality {
   int part = 0;
   int elements = 0;
-  double volume = 0;  ///< m3
+  double volume = 0;               ///< m3
   double min_scaled_jacobian = 1;  ///< tetrahedra aside
   double max_aspect = 1;
   double max_warpage = 0;                ///< rad

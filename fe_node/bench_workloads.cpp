@@ -22,7 +22,8 @@
 namespace crosswalk::fe {
 namespace {
 
-/// Counted in the kernels; the mixed model counts as bricks, of which it mostly consists [E].
+/// Counted in the kernels, that of eight points by sum [E]; the mixed model counts as one-point
+/// bricks [E].
 constexpr double kFlopsPerElasticHex = 1150, kFlopsPerViscoelasticHex = 1400,
                  kFlopsPerFullViscoelasticHex = 7000, kFlopsPerPlasticShell = 1500;
 

@@ -289,16 +289,6 @@ void FullHexBlock<N, Law>::forces(const StepContext& step, std::span<double> his
   lanes.book(sums);
 }
 
-/// One lane of what is kept for a pack.
-template <template <class> class T, class N>
-T<double> lane_of(const T<N>& all, int lane) {
-  constexpr std::size_t kCount = sizeof(T<N>) / sizeof(N);
-  T<double> one;
-  for (std::size_t k = 0; k < kCount; ++k)
-    reinterpret_cast<double*>(&one)[k] = reinterpret_cast<const N*>(&all)[k][lane];
-  return one;
-}
-
 // Outputs ask for one element at a time: its own numbers alone, not those of its pack.
 template <class N, class Law>
 ElementSample FullHexBlock<N, Law>::sample(const StepContext& step, std::span<const double> history,

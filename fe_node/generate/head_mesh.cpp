@@ -41,8 +41,7 @@ constexpr double kMeanInwards = 0.84;  ///< brain surface over skin, seen from t
 // estimates [E] that give them within the cell size.
 constexpr double kCerebellumTop = -0.25, kCerebellumFront = -0.25;
 
-}  // namespace
-
+/// Region of a brain cell by its place in the ball's lattice and its centroid in F.
 int brain_part(const Vec3& lattice, const Vec3& p, const Vec3& scale) {
   const Vec3 q = p.cwiseQuotient(scale);
   const bool left = q.y() > 0;
@@ -53,12 +52,11 @@ int brain_part(const Vec3& lattice, const Vec3& p, const Vec3& scale) {
   return left ? part::kCerebrumLeft : part::kCerebrumRight;
 }
 
+}  // namespace
+
 HeadMesh add_cranium(MeshDraft& draft, const HeadShape& shape, const HeadResolution& resolution) {
-  HeadMesh head{.sphere = CubedSphere(resolution.n),
-                .brain_surface = {},
-                .skull_inner = {},
-                .skull_outer = {},
-                .skin = {}};
+  HeadMesh head{
+      .sphere = CubedSphere(resolution.n), .skull_inner = {}, .skull_outer = {}, .skin = {}};
   CubedSphere& sphere = head.sphere;
   if (resolution.lift > 0) sphere.set_directions(lifted_directions(sphere, shape, resolution.lift));
   if (resolution.even_sweeps > 0)
@@ -72,7 +70,7 @@ HeadMesh add_cranium(MeshDraft& draft, const HeadShape& shape, const HeadResolut
     const double lift = resolution.lift * shape.middle_z(p.x()) * (1 - radius * radius);
     return shape.centre() + inwards * shape.spread(p) + Vec3(0, 0, lift);
   };
-  head.brain_surface = add_ball(draft, sphere, place, [&](const BallCell& cell) {
+  const std::vector<int> brain_surface = add_ball(draft, sphere, place, [&](const BallCell& cell) {
     return brain_part(cell.lattice, place(cell.centroid), shape.scale());
   });
   const auto everywhere = [](int) { return true; };
@@ -87,7 +85,7 @@ HeadMesh add_cranium(MeshDraft& draft, const HeadShape& shape, const HeadResolut
     return nodes;
   };
   using Ray = HeadShape::Ray;
-  head.skull_inner = grow(head.brain_surface, resolution.csf_layers, &Ray::brain, &Ray::skull_inner,
+  head.skull_inner = grow(brain_surface, resolution.csf_layers, &Ray::brain, &Ray::skull_inner,
                           everywhere, part::kCsf);
   head.skull_outer = grow(head.skull_inner, resolution.skull_layers, &Ray::skull_inner,
                           &Ray::skull_outer, everywhere, part::kDiploe);

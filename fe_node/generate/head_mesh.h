@@ -28,8 +28,7 @@ struct HeadResolution {
 
 struct HeadMesh {
   CubedSphere sphere;
-  std::vector<int> brain_surface;  ///< nodes in surface order
-  std::vector<int> skull_inner;
+  std::vector<int> skull_inner;  ///< nodes in surface order
   std::vector<int> skull_outer;
   std::vector<int> skin;  ///< of the scalp; -1 on the strip
 };
@@ -75,8 +74,5 @@ struct FaceAndFlesh {
 
 FaceAndFlesh add_face_and_flesh(MeshDraft& draft, const HeadMesh& head, const HeadShape& shape,
                                 const NeckFleshPlan& plan);
-
-/// Region of a brain cell by its place in the ball's lattice and its centroid in F.
-int brain_part(const Vec3& lattice, const Vec3& p, const Vec3& scale);
 
 }  // namespace crosswalk::fe::generate

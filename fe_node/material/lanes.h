@@ -287,4 +287,16 @@ void set_lane(const T<double>& one, int lane, T<N>& all) {
   for (std::size_t k = 0; k < kCount; ++k) to[k].set(lane, from[k]);
 }
 
+/// The numbers of one lane.
+template <template <class> class T, class N>
+T<double> lane_of(const T<N>& all, int lane) {
+  constexpr std::size_t kCount = sizeof(T<double>) / sizeof(double);
+  static_assert(sizeof(T<N>) == kCount * sizeof(N));
+  T<double> one;
+  const N* from = reinterpret_cast<const N*>(&all);
+  double* to = reinterpret_cast<double*>(&one);
+  for (std::size_t k = 0; k < kCount; ++k) to[k] = from[k][lane];
+  return one;
+}
+
 }  // namespace crosswalk::fe

@@ -34,19 +34,20 @@ Vec3 FreeHead::support(const Vec3& direction) const {
 }
 
 Vec3 FreeHead::brain_surface(const Vec3& direction) const {
-  // The pia lines the brain inside too, along falx and tentorium: come from outside, then from how
-  // far out the surface is.
-  Vec3 best = cranial_centre();
-  for (double radius = 0.12, pass = 0; pass < 2; ++pass) {
+  const auto nearest_pia = [&](double radius) {
     const Vec3 target = cranial_centre() + radius * direction;
+    Vec3 best = cranial_centre();
     for (const generate::Quad& quad : draft.mesh.quads) {
       if (quad.part != part::kPia) continue;
       const Vec3 p = draft.mesh.nodes[quad.node[0]];
       if ((p - target).squaredNorm() < (best - target).squaredNorm()) best = p;
     }
-    radius = (best - cranial_centre()).norm();
-  }
-  return best;
+    return best;
+  };
+  // The pia lines the brain inside too, along falx and tentorium: come from outside, then from how
+  // far out the surface is.
+  constexpr double kOutside = 0.12;  // m
+  return nearest_pia((nearest_pia(kOutside) - cranial_centre()).norm());
 }
 
 HeadSensor::HeadSensor(const DeckRun& run)
